@@ -1,7 +1,7 @@
-//! The readers of GIFTI: surfaces, and the values and labels on them.
+//! The readers of GIFTI: surfaces, the values and labels on them, and notes.
 #![no_main]
 
-use ricci::mesh::io::{parse_gifti, parse_gifti_columns};
+use ricci::mesh::io::{GiftiNotes, gifti_values, parse_gifti, parse_gifti_columns, parse_gifti_notes};
 use ricci_fuzz::read;
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
@@ -10,5 +10,10 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
         && let Some(labels) = found.labels()
     {
         assert!(labels.into_iter().flatten().all(|row| row < found.table.len()));
+    }
+    if let Ok(GiftiNotes { metadata, .. }) = parse_gifti_notes(data, "input") {
+        let notes = GiftiNotes { metadata, ..GiftiNotes::default() };
+        let bytes = gifti_values(&[], &notes).expect("notes are written");
+        assert_eq!(parse_gifti_notes(&bytes, "input").expect("and read"), notes);
     }
 });

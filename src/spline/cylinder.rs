@@ -7,6 +7,8 @@ use crate::linalg::dense::{solve_definite, symmetric_eigenvectors};
 const STEPS: usize = 4;
 /// The part by which the diagonal of the normal equations grows, so that they stay definite for points that leave a direction open.
 const DAMPING: f64 = 1e-12;
+/// The radius, over the largest distance of points from their middle, from which on they are taken to lie in a plane.
+const FLAT: f64 = 1e3;
 
 /// A circular cylinder without ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +22,7 @@ pub(crate) struct Cylinder {
 
 impl Cylinder {
     /// The cylinder that is nearest to points: the squares of their distances are least, from the axis to which `normals`, with their weights,
-    /// are most nearly perpendicular. None where that is no cylinder.
+    /// are most nearly perpendicular. None where that is no cylinder, or one so wide that it is a plane.
     pub fn near(points: &[Vector], normals: &[(Vector, f64)]) -> Option<Cylinder> {
         let n = points.len() as f64;
         let origin = scale(1.0 / n, points.iter().fold([0.0; 3], |sum, &p| add(sum, p)));
@@ -32,7 +34,8 @@ impl Cylinder {
             found = found.nearer(points)?;
         }
         let is_finite = found.origin.iter().chain(&found.axis).all(|x| x.is_finite());
-        (is_finite && found.radius > 0.0 && found.radius.is_finite()).then_some(found)
+        let extent = points.iter().map(|&p| norm(sub(p, origin))).fold(0.0, f64::max);
+        (is_finite && found.radius > 0.0 && found.radius < FLAT * extent).then_some(found)
     }
 
     /// The way from the axis to a point, perpendicular to it.
@@ -127,8 +130,13 @@ mod tests {
 
     #[test]
     fn points_in_a_plane_lie_on_none() {
-        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        let found = Cylinder::near(&points, &[([0.0, 0.0, 1.0], 1.0)]);
-        assert!(found.is_none_or(|found| points.iter().any(|&p| found.distance(p).abs() > 0.1)));
+        // Not on a circle either, as the corners of a square are.
+        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.4, 0.3, 0.0]];
+        for turn in 0..64 {
+            let (sine, cosine) = (0.1 * f64::from(turn)).sin_cos();
+            let turned = points.map(|[x, y, z]| [cosine * x - sine * z, y, sine * x + cosine * z]);
+            let found = Cylinder::near(&turned, &[([-sine, 0.0, cosine], 1.0)]);
+            assert!(found.is_none_or(|found| turned.iter().any(|&p| found.distance(p).abs() > 0.1)));
+        }
     }
 }

@@ -1,6 +1,7 @@
-# The archive of cmake/tarball.cmake builds where nothing can be fetched: without a network, and with a CARGO_HOME that has no crate.
+# The archive of cmake/tarball.cmake builds where nothing can be fetched: without a network, and with a CARGO_HOME that has no crate; with
+# everything, and without any feature.
 #
-# The build is not optimised, so that it is quick.
+# The builds are not optimised, so that they are quick.
 find_program(GIT git)
 if(NOT GIT OR NOT EXISTS ${ROOT}/.git)
   message(STATUS "skipped: archives are made of a git checkout, and this is none")
@@ -24,7 +25,32 @@ if(NOT _together EQUAL 0)
   set(_alone)
 endif()
 execute_process(COMMAND ${_alone} ${CMAKE_COMMAND} -S ${_source} -B ${WORK}/build -DRICCI_CARGO_OFFLINE=ON
-  -DRICCI_CARGO_PROFILE=unoptimised -DRICCI_TESTS=OFF COMMAND_ERROR_IS_FATAL ANY)
+  -DRICCI_CARGO_PROFILE=unoptimised -DRICCI_CARGO_TARGET_DIR=${WORK}/cargo -DRICCI_CARGO_WITH=ricci-apps -DRICCI_TESTS=OFF
+  COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${_alone} ${CMAKE_COMMAND} --build ${WORK}/build COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK}/build/examples/c/example_flow WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
+
+# The golden vectors have the bits of the optimised build, where there is one of the command.
+if(EXISTS ${RICCI})
+  execute_process(COMMAND ${ROOT}/tests/vectors/bits ${WORK}/cargo/unoptimised/ricci ${RICCI} COMMAND_ERROR_IS_FATAL ANY)
+endif()
+
+# A build without any feature, by the same archive and from the same crates, has the functions of every header, and those of what was left out
+# say so. Builds that are not optimised have debug assertions: a second release is refused.
+file(WRITE ${WORK}/part/CMakeLists.txt "cmake_minimum_required(VERSION 3.19)
+project(part LANGUAGES C)
+set(RICCI_FEATURES \"\" CACHE STRING \"none\")
+add_subdirectory(${_source} ricci)
+add_executable(left_out ${SOURCE}/left_out.c)
+target_link_libraries(left_out PRIVATE ricci::ricci)
+")
+execute_process(COMMAND ${_alone} ${CMAKE_COMMAND} -S ${WORK}/part -B ${WORK}/parts -DRICCI_CARGO_OFFLINE=ON -DCARGO=${CARGO}
+  -DRICCI_CARGO_PROFILE=unoptimised -DRICCI_CARGO_TARGET_DIR=${WORK}/cargo OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${_alone} ${CMAKE_COMMAND} --build ${WORK}/parts --target left_out OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${WORK}/parts/left_out WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
+if(NM AND READELF)
+  file(GLOB _shared ${WORK}/parts/ricci/lib/libricci.so.*.*.*)
+  execute_process(COMMAND ${CMAKE_COMMAND} -DNM=${NM} -DREADELF=${READELF} -DLIBRARY=${_shared} -DHEADERS=${ROOT}/include/ricci
+    -DSONAME=${SONAME} -P ${CMAKE_CURRENT_LIST_DIR}/exports.cmake COMMAND_ERROR_IS_FATAL ANY)
+endif()
 file(REMOVE_RECURSE ${WORK})

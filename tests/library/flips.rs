@@ -9,7 +9,7 @@ use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, failing, intrinsic
 use ricci::metric::{Scheme, curvature};
 use ricci::{Class, Control, Flow, Target};
 
-/// Largest mesh that the optimised tests of a debug build take.
+/// Largest mesh that tests take, so that they are quick in a debug build too.
 const MOST_VERTICES: usize = 3000;
 
 /// Converged, and the metric, measured anew, has the curvature, whole triangles and a Delaunay triangulation.

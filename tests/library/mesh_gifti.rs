@@ -270,3 +270,25 @@ fn columns_of_other_programs_are_read_and_damaged_ones_are_refused_with_the_line
     assert!(none.contains("no array of one value per vertex"), "{none}");
     assert!(parse_annotation(file(&both[..1]).as_bytes(), "t.label.gii").is_err());
 }
+
+#[test]
+fn notes_are_those_of_the_file_and_of_its_first_array() {
+    let text = ascii(&tetrahedron());
+    let found = io::parse_gifti_notes(text.as_bytes(), "t.surf.gii").unwrap();
+    assert_eq!(found.metadata, [("n".to_string(), String::new())]);
+    let diagonal = [2.0, 2.0, 2.0, 1.0];
+    let double = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| if i == j { diagonal[i] } else { 0.0 }));
+    // Both arrays have one.
+    assert_eq!(found.transforms.iter().map(|t| t.matrix).collect::<Vec<_>>(), [double; 2]);
+    for (from, to, words) in [
+        ("2 0 0 0 0 2", "2 0 0 0 0 x", "`x` is no finite number"),
+        ("2 0 0 0 0 2", "inf 0 0 0 0 2", "`inf` is no finite number"),
+        ("2 0 0 0 0 2", "2 0 0 0 2", "fewer than 16"),
+        ("2 0 0 0 0 2", "2 0 0 0 0 2 1", "more than 16"),
+    ] {
+        let text = text.replacen(from, to, 1);
+        assert!(parse(&text).is_ok());
+        let message = io::parse_gifti_notes(text.as_bytes(), "t.surf.gii").unwrap_err().to_string();
+        assert!(message.contains(words) && message.starts_with("t.surf.gii:"), "{message}");
+    }
+}

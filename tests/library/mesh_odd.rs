@@ -308,18 +308,26 @@ fn star(n: usize) -> String {
 }
 
 #[test]
-fn polygons_of_a_thousand_corners_are_cut_quickly() {
-    let corners: String = (1..=1000).map(|v| format!(" {v}")).collect();
-    let text = star(1000) + &format!("f{corners}\n").repeat(50);
-    let start = Instant::now();
-    let soup = io::parse_obj(text.as_bytes(), "t.obj").unwrap();
-    let seconds = start.elapsed().as_secs_f64();
-    assert_eq!(soup.faces.len(), 50 * 998);
-    let double_area = |[a, b, c]: [u32; 3]| {
-        let [a, b, c] = [a, b, c].map(|v| soup.positions[v as usize]);
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+fn polygons_of_many_corners_take_little_more_time_than_as_many_corners_of_small_ones() {
+    // As many corners in all, read together; the least of several times, which other work on the machine disturbs least.
+    let read = |corners: usize| {
+        let polygon: String = (1..=corners).map(|v| format!(" {v}")).collect();
+        let text = star(corners) + &format!("f{polygon}\n").repeat(50_000 / corners);
+        let once = || {
+            let start = Instant::now();
+            let soup = io::parse_obj(text.as_bytes(), "t.obj").unwrap();
+            (start.elapsed().as_secs_f64(), soup)
+        };
+        let soup = once().1;
+        assert_eq!(soup.faces.len(), 50_000 / corners * (corners - 2));
+        let double_area = |[a, b, c]: [u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|v| soup.positions[v as usize]);
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        };
+        assert!(soup.faces.iter().all(|&f| double_area(f) > 0.0));
+        (0..5).map(|_| once().0).fold(f64::INFINITY, f64::min)
     };
-    assert!(soup.faces.iter().all(|&f| double_area(f) > 0.0));
-    // 0.1 s when this was written; examining every corner again for each ear takes 1.2 s.
-    assert!(seconds < 0.6, "{seconds} s");
+    let ratio = read(1000) / read(100);
+    // 1.6 when this was written; where every corner is examined again for each ear it is 10.
+    assert!(ratio < 4.0, "{ratio}");
 }

@@ -58,7 +58,7 @@ impl BrainArgs {
             let primary = ("AnatomicalStructurePrimary", of.side.anatomy());
             let all = std::iter::once(&primary).chain(kind);
             let metadata = all.map(|(name, value)| (name.to_string(), value.to_string())).collect();
-            GiftiNotes { metadata, transform: None }
+            GiftiNotes { metadata, transforms: Vec::new() }
         };
         let kind = |kind| notes(&[("GeometricType", kind)]);
         let faces = of.surface.mesh().triangles();

@@ -16,7 +16,8 @@ use std::borrow::Cow;
 /// one vector per vertex; other arrays are skipped. Data are ASCII, base64 or compressed base64, in either byte order and either array
 /// order; data in another file are refused with its name.
 ///
-/// Positions are as stored: `CoordinateSystemTransformMatrix`, which maps them to the coordinates of another space, is not applied.
+/// Positions are as stored: `CoordinateSystemTransformMatrix`, which maps them to the coordinates of another space, is not applied
+/// ([`super::parse_gifti_notes`] reads it).
 /// Entities are not expanded. `path` is used in errors.
 ///
 /// # Errors
@@ -31,10 +32,20 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
 /// What takes the parts of a file that it needs.
 pub(super) trait GiftiVisitor {
     /// The text of an array's data.
-    fn array(&mut self, header: &ArrayHeader, text: &str, place: Location<'_>) -> Result<()>;
+    fn array(&mut self, header: &ArrayHeader, data: &ArrayText<'_>) -> Result<()>;
 
-    /// A row of the table of labels and its name as it is written.
+    /// A row of the table of labels and its name.
     fn label(&mut self, _tag: &BytesStart<'_>, _name: &str, _place: Location<'_>) -> Result<()> {
+        Ok(())
+    }
+
+    /// A name and its value, of an array or of the whole file.
+    fn note(&mut self, _within: Option<&ArrayHeader>, _note: [&str; 2], _place: Location<'_>) -> Result<()> {
+        Ok(())
+    }
+
+    /// A part of a transform: the name of its element, `DataSpace`, `TransformedSpace` or `MatrixData`, and the text.
+    fn transform(&mut self, _element: &str, _text: &str, _place: Location<'_>) -> Result<()> {
         Ok(())
     }
 }
@@ -47,9 +58,8 @@ pub(super) fn read_gifti(bytes: &[u8], path: &str, visitor: &mut dyn GiftiVisito
     let mut reader = Reader::from_reader(bytes);
     reader.config_mut().expand_empty_elements = true;
     let mut lines = LineCounter { bytes, at: 0, line: 1 };
-    // The array that is being read, and whether the note that is being read is its name.
-    let mut inside: Option<ArrayHeader> = None;
-    let (mut root, mut is_name) = (false, false);
+    let mut open = OpenElements::default();
+    let mut root = false;
     loop {
         let event = reader.read_event();
         let place = Location::line(path, lines.until(reader.buffer_position()));
@@ -61,33 +71,66 @@ pub(super) fn read_gifti(bytes: &[u8], path: &str, visitor: &mut dyn GiftiVisito
                 }
                 root = true;
             }
-            Ok(Event::Start(tag)) => match (tag.name().0, &mut inside) {
-                ("DataArray", None) => inside = Some(ArrayHeader::new(&tag, place)?),
-                ("DataArray", Some(_)) => return place.error("a DataArray inside another".into()),
-                ("Data", Some(array)) => match reader.read_text(tag.name()) {
-                    Ok(text) => visitor.array(array, &text, place)?,
-                    Err(e) => return no_xml(e),
-                },
-                ("Name", Some(_)) => match reader.read_text(tag.name()) {
-                    Ok(text) => is_name = plain(&text) == "Name",
-                    Err(e) => return no_xml(e),
-                },
-                ("Value", Some(array)) if is_name => match reader.read_text(tag.name()) {
-                    Ok(text) => array.name = plain(&text).into(),
-                    Err(e) => return no_xml(e),
-                },
-                ("Label", None) => match reader.read_text(tag.name()) {
-                    Ok(text) => visitor.label(&tag, &plain(&text), place)?,
-                    Err(e) => return no_xml(e),
-                },
-                _ => {}
+            Ok(Event::Start(tag)) if tag.name().0 == "DataArray" => match open.array {
+                None => open.array = Some(ArrayHeader::new(&tag, place)?),
+                Some(_) => return place.error("a DataArray inside another".into()),
             },
-            Ok(Event::End(tag)) if tag.name().0 == "DataArray" => inside = None,
+            Ok(Event::Start(tag)) if OpenElements::WITH_TEXT.contains(&tag.name().0) => {
+                match reader.read_text(tag.name()) {
+                    Ok(text) => open.text(&tag, &text, place, visitor)?,
+                    Err(e) => return no_xml(e),
+                }
+            }
+            Ok(Event::End(tag)) if tag.name().0 == "DataArray" => open.array = None,
             Ok(Event::End(tag)) if tag.name().0 == "GIFTI" => return Ok(()),
             Ok(Event::Eof) if root => return place.error("the file ends inside the element `GIFTI`".into()),
             Ok(Event::Eof) => return place.error("this is no GIFTI file: it has no element".into()),
             Ok(_) => {}
             Err(e) => return no_xml(e),
+        }
+    }
+}
+
+/// What has begun at a place of a file.
+#[derive(Default)]
+struct OpenElements {
+    /// The array that is being read.
+    array: Option<ArrayHeader>,
+    /// The name of the note that is being read.
+    name: String,
+}
+
+impl OpenElements {
+    /// Elements whose text counts.
+    const WITH_TEXT: [&str; 7] =
+        ["Data", "Name", "Value", "Label", "DataSpace", "TransformedSpace", "MatrixData"];
+
+    /// Takes the text of one of them, and hands it to the visitor.
+    fn text(
+        &mut self,
+        tag: &BytesStart<'_>,
+        text: &str,
+        place: Location<'_>,
+        visitor: &mut dyn GiftiVisitor,
+    ) -> Result<()> {
+        match (tag.name().0, &mut self.array) {
+            ("Data", Some(array)) => visitor.array(array, &ArrayText { what: "data", text, place }),
+            ("Name", _) => {
+                self.name = plain(text).into();
+                Ok(())
+            }
+            ("Value", array) => {
+                let value = plain(text);
+                if let Some(array) = array.as_mut().filter(|_| self.name == "Name") {
+                    array.name = value.clone().into();
+                }
+                visitor.note(array.as_ref(), [&self.name, &value], place)
+            }
+            ("Label", None) => visitor.label(tag, &plain(text), place),
+            (element @ ("DataSpace" | "TransformedSpace" | "MatrixData"), Some(_)) => {
+                visitor.transform(element, &plain(text), place)
+            }
+            _ => Ok(()),
         }
     }
 }
@@ -133,9 +176,9 @@ struct GiftiArrays {
 }
 
 impl GiftiVisitor for GiftiArrays {
-    fn array(&mut self, header: &ArrayHeader, text: &str, place: Location<'_>) -> Result<()> {
-        let budget = &mut self.budget;
-        let mut rows = |what| header.table(&ArrayText { what, text, place }, budget);
+    fn array(&mut self, header: &ArrayHeader, data: &ArrayText<'_>) -> Result<()> {
+        let (budget, place) = (&mut self.budget, data.place);
+        let mut rows = |what| header.table(&ArrayText { what, ..*data }, budget);
         let points = |table: VectorTable| (0..table.rows).map(|i| table.row(i)).collect();
         match header.intent.as_str() {
             "NIFTI_INTENT_POINTSET" if self.points.is_none() => self.points = Some(points(rows("points")?)),

@@ -98,11 +98,11 @@ struct ColumnsReading {
 }
 
 impl GiftiVisitor for ColumnsReading {
-    fn array(&mut self, header: &ArrayHeader, text: &str, place: Location<'_>) -> Result<()> {
+    fn array(&mut self, header: &ArrayHeader, data: &ArrayText<'_>) -> Result<()> {
         if header.is_column() {
-            let values = header.column(&ArrayText { what: "values", text, place }, &mut self.budget)?;
+            let values = header.column(&ArrayText { what: "values", ..*data }, &mut self.budget)?;
             let intent = header.intent.trim_start_matches("NIFTI_INTENT_").to_string();
-            self.budget.take(1, size_of::<GiftiColumn>() + header.name.len(), "arrays", place)?;
+            self.budget.take(1, size_of::<GiftiColumn>() + header.name.len(), "arrays", data.place)?;
             self.found.columns.push(GiftiColumn { intent, name: header.name.clone(), values });
         }
         Ok(())

@@ -2,6 +2,7 @@
 //! Numbers are those of single precision, compressed and in base64, as the format's other programs write them.
 
 use super::base64::encode;
+use super::gifti_notes::{GiftiNotes, GiftiTransform};
 use super::{Format, Soup, write_atomically};
 use crate::error::{Error, Result};
 use flate2::Compression;
@@ -9,35 +10,6 @@ use flate2::write::ZlibEncoder;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
-
-/// What a GIFTI file says beside its numbers.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct GiftiNotes {
-    /// Names and values, such as `AnatomicalStructurePrimary` and `CortexLeft`. They are told of the file and of its first array.
-    pub metadata: Vec<(String, String)>,
-    /// The way from the coordinates of a surface to those of another space; the identity where there is none.
-    pub transform: Option<GiftiTransform>,
-}
-
-/// The way from coordinates to those of another space, as `CoordinateSystemTransformMatrix` has it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct GiftiTransform {
-    /// The name of the space of the coordinates, such as `NIFTI_XFORM_SCANNER_ANAT`.
-    pub from: String,
-    /// The name of the other space.
-    pub to: String,
-    /// Rows of the matrix that acts on (x, y, z, 1).
-    pub matrix: [[f64; 4]; 4],
-}
-
-impl Default for GiftiTransform {
-    /// The identity of a space that is not known.
-    fn default() -> GiftiTransform {
-        let unknown = || "NIFTI_XFORM_UNKNOWN".to_string();
-        let matrix = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| f64::from(u8::from(i == j))));
-        GiftiTransform { from: unknown(), to: unknown(), matrix }
-    }
-}
 
 /// A row of the table of labels.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,7 +173,9 @@ fn file(arrays: &[OutGifti<'_>], table: &[GiftiLabel], notes: &GiftiNotes) -> St
             _ => metadata(&mut text, &[]),
         }
         if *intent == "POINTSET" {
-            transform(&mut text, &notes.transform.clone().unwrap_or_default());
+            let unknown = [GiftiTransform::default()];
+            let all = if notes.transforms.is_empty() { &unknown[..] } else { &notes.transforms[..] };
+            all.iter().for_each(|one| transform(&mut text, one));
         }
         let _ = writeln!(text, "<Data>{}</Data>\n</DataArray>", encode(&compressed(&array.bytes)));
     }
@@ -239,7 +213,7 @@ fn compressed(bytes: &[u8]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::io::parse_gifti;
+    use crate::mesh::io::{parse_gifti, parse_gifti_notes};
 
     fn triangle() -> Soup {
         Soup::new(
@@ -250,15 +224,26 @@ mod tests {
 
     #[test]
     fn a_surface_reads_back_in_single_precision() {
+        let mni = GiftiTransform {
+            to: "NIFTI_XFORM_MNI_152".into(),
+            matrix: [
+                [0.1, -2.0, 3e-7, 4.5],
+                [0.0, 1.0, 0.0, -18.0],
+                [0.0, 0.0, 1.0, 1e9],
+                [0.0, 0.0, 0.0, 1.0],
+            ],
+            ..GiftiTransform::default()
+        };
         let notes = GiftiNotes {
             metadata: vec![("AnatomicalStructurePrimary".into(), "Cortex]]>Left & <right>".into())],
-            transform: Some(GiftiTransform { to: "NIFTI_XFORM_MNI_152".into(), ..GiftiTransform::default() }),
+            transforms: vec![mni, GiftiTransform { to: "a & b".into(), ..GiftiTransform::default() }],
         };
         let bytes = gifti_surface(&triangle(), &notes).unwrap();
         let back = parse_gifti(&bytes, "t.gii").unwrap();
         assert_eq!(back.faces, triangle().faces);
         let rounded: Vec<_> = triangle().positions.iter().map(|p| p.map(|x| f64::from(x as f32))).collect();
         assert_eq!(back.positions, rounded);
+        assert_eq!(parse_gifti_notes(&bytes, "t.gii").unwrap(), notes);
         let text = String::from_utf8(bytes).unwrap();
         assert!(text.contains("NIFTI_XFORM_MNI_152") && text.contains("Cortex]]]]><![CDATA[>Left & <right>"));
     }

@@ -18,6 +18,8 @@ mod gifti;
 #[cfg(feature = "gifti")]
 mod gifti_data;
 #[cfg(feature = "gifti")]
+mod gifti_notes;
+#[cfg(feature = "gifti")]
 mod gifti_values;
 #[cfg(feature = "gifti")]
 mod gifti_write;
@@ -52,11 +54,11 @@ pub use freesurfer::{parse_freesurfer, write_freesurfer, write_freesurfer_text};
 #[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
 #[cfg(feature = "gifti")]
+pub use gifti_notes::{GiftiNotes, GiftiTransform, parse_gifti_notes};
+#[cfg(feature = "gifti")]
 pub use gifti_values::{GiftiColumn, GiftiColumns, parse_gifti_columns};
 #[cfg(feature = "gifti")]
-pub use gifti_write::{
-    GiftiLabel, GiftiNotes, GiftiTransform, gifti_labels, gifti_surface, gifti_values, write_gifti,
-};
+pub use gifti_write::{GiftiLabel, gifti_labels, gifti_surface, gifti_values, write_gifti};
 #[cfg(feature = "gltf")]
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use guess::SurfaceFormat;

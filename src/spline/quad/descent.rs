@@ -8,6 +8,7 @@
 use super::layout::PatchCorner;
 use super::nearest::{NearestToVertex, vertex_places};
 use super::piece_form::FootPoint;
+use super::quintic::QuinticBasis;
 use super::spline::QuadSpline;
 use super::system::{FitGoal, FitWeights, QuadSystem};
 use super::target::SplineTarget;
@@ -239,6 +240,14 @@ impl PatchIterate {
             is_folded |= at.normal().is_none_or(|normal| dot(normal, foot.normal) <= 0.0);
             feet.push(foot);
         }
+        // Small folds lie between these places, and a fit is not measured at them.
+        let turns = |([u, v], k): ([&QuinticBasis; 2], usize)| {
+            let at = spline.combined(p, u, v);
+            let normal = at.normal();
+            normal.is_none_or(|normal| dot(normal, feet[k].normal) <= 0.0)
+                && target.target.is_turned_over(target.pieces[p], at.point, normal)
+        };
+        is_folded = is_folded || system.measured(p).any(turns);
         let mut vertices: Vec<NearestToVertex> =
             nearest.iter().map(|place| place.nearer(spline, p)).collect();
         let squares = system.squares(spline, p, &feet, &vertices);

@@ -7,7 +7,7 @@ use super::piece_form::{FootPoint, PieceForm};
 use super::quintic::QuinticBasis;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
-use super::system::{FitPlace, QuadSystem};
+use super::system::{FitPlace, MEASURED, QuadSystem, measured_parameter};
 use super::target::SplineTarget;
 use crate::archive::stored;
 use crate::control::{Control, Stage};
@@ -16,8 +16,6 @@ use crate::geometry::vector::{Vector, distance, dot, sub};
 use crate::parallel;
 use std::sync::Arc;
 
-/// Places of a patch in each direction at which a fit is measured: other ones than those of the fit.
-const MEASURED: usize = 23;
 /// The multiple of the noise beyond which one of ten thousand vertices lies.
 const NOISE_WITHIN: f64 = 4.0;
 
@@ -179,14 +177,12 @@ struct PatchDistances {
 }
 
 fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> QuadFit {
-    let parameter = |k: usize| k as f64 / (MEASURED - 1) as f64;
     let vertices = vertex_places(target, pieces, &|p, uv| spline.point_at(p, uv));
     let of_patch = |p: usize| {
         let mut found = PatchDistances { cosine: 1.0, ..PatchDistances::default() };
-        let [along_u, along_v] = spline
-            .space()
-            .patch_spans(p)
-            .map(|spans| (0..MEASURED).map(|k| QuinticBasis::at(spans, parameter(k))).collect::<Vec<_>>());
+        let [along_u, along_v] = spline.space().patch_spans(p).map(|spans| {
+            (0..MEASURED).map(|k| QuinticBasis::at(spans, measured_parameter(k))).collect::<Vec<_>>()
+        });
         for (u, v) in along_u.iter().flat_map(|u| along_v.iter().map(move |v| (u, v))) {
             let at = spline.combined(p, u, v);
             let foot = target.foot(pieces[p], at.point);

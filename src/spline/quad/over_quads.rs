@@ -22,7 +22,7 @@ const LATE_STEP: usize = 10;
 const NEAR: f64 = 10.0;
 /// Places of a patch in each direction whose faces tell on which part of the surface it lies.
 const PLACES_FOR_FACES: usize = 12;
-/// The share of the distance below which a round has to bring it, and the rounds in a row that may not where no patch is turned over.
+/// The share of the distance below which a round has to bring it, and the rounds in a row that may gain nothing.
 const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
@@ -156,18 +156,17 @@ impl<'a> LayoutStart<'a> {
             let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();
-            // More spans are of no use where they did not bring the last fit nearer, or turn fewer patches up again.
-            fruitless = match &best {
-                Some(best) if folds >= best.folded_patches.len() && fit.max() > WORTHWHILE * best.max() => {
-                    fruitless + 1
-                }
-                _ => 0,
+            // More spans are of no use where they turned no patch up again or, where none is turned over, did not bring the last fit nearer.
+            let is_gain = |best: &QuadFit| match (folds, best.folded_patches.len()) {
+                (0, 0) => fit.max() <= WORTHWHILE * best.max(),
+                (folds, before) => folds < before,
             };
+            fruitless = if best.as_ref().is_none_or(is_gain) { 0 } else { fruitless + 1 };
             let mut is_more = raise_spans(patches, &mut spans, &fit, options);
             if !is_more && folds == 0 && bending > options.least_bending(&fit) {
                 (bending, is_more) = (SOFTER * bending, true);
             }
-            let is_stuck = fruitless > if folds > 0 { 0 } else { MOST_FRUITLESS };
+            let is_stuck = fruitless > MOST_FRUITLESS;
             // Instrumented builds, in which every round takes minutes, make one.
             let is_done = options.is_met_by(&fit) || !is_more || is_stuck || cfg!(fuzzing);
             if folds == 0 && !is_done {

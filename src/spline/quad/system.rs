@@ -18,6 +18,8 @@ use std::sync::Arc;
 /// span. As many as there are coefficients would be interpolated, with large errors between them.
 const PLACES_OF_ONE_SPAN: usize = 2 * QUINTIC;
 const PLACES_OF_A_SPAN: usize = 7;
+/// Places in each direction of a patch at which a fit is measured: other ones than those at which distances are taken.
+pub(super) const MEASURED: usize = 23;
 /// Pairs of unknowns beyond which repeated ones are dropped on the way.
 const MOST_PAIRS: usize = 1 << 24;
 /// Number of control points that a place depends on.
@@ -58,6 +60,8 @@ struct SpanPlace {
 /// A direction of a patch with a number of spans.
 struct SpanDirection {
     places: Vec<SpanPlace>,
+    /// The places at which a fit is measured, each with the number of the nearest of the others.
+    measured: Vec<(QuinticBasis, usize)>,
     /// ∫ of the products of the derivatives of order 0, 1 and 2 of two basis functions i and j, at i · n + j of n functions.
     products: [Vec<f64>; 3],
 }
@@ -191,6 +195,15 @@ impl QuadSystem {
                 weight: u.weight * v.weight,
             })
         })
+    }
+
+    /// The places of a patch at which a fit is measured, each with the number of the nearest of [`QuadSystem::places`].
+    pub fn measured(&self, p: usize) -> impl Iterator<Item = ([&QuinticBasis; 2], usize)> + '_ {
+        let [of_u, of_v] = self.space.patch_spans(p).map(|spans| &self.along[&spans]);
+        let n = of_v.places.len();
+        of_u.measured
+            .iter()
+            .flat_map(move |(u, i)| of_v.measured.iter().map(move |(v, j)| ([u, v], i * n + j)))
     }
 
     /// The squared distances of the places of a patch from their feet and of vertices from theirs, with the weights that [`QuadSystem::solve`]
@@ -331,8 +344,29 @@ impl SpanDirection {
             }
             sum
         };
-        SpanDirection { products: [0, 1, 2].map(product), places }
+        SpanDirection { products: [0, 1, 2].map(product), measured: measured(spans, &places), places }
     }
+}
+
+/// The places of a direction at which a fit is measured, with the nearest of others.
+fn measured(spans: usize, places: &[SpanPlace]) -> Vec<(QuinticBasis, usize)> {
+    let at = |k: usize| {
+        let parameter = measured_parameter(k);
+        let after = places.partition_point(|place| place.parameter < parameter);
+        let far = |place: usize| (places[place].parameter - parameter).abs();
+        let nearest = match after {
+            0 => 0,
+            n if n == places.len() || far(n - 1) <= far(n) => n - 1,
+            n => n,
+        };
+        (QuinticBasis::at(spans, parameter), nearest)
+    };
+    (0..MEASURED).map(at).collect()
+}
+
+/// The k-th of the parameters at which a fit is measured, from 0 to 1.
+pub(super) fn measured_parameter(k: usize) -> f64 {
+    k as f64 / (MEASURED - 1) as f64
 }
 
 /// The matrix of the squared distance from a tangent plane and from its point, with these weights, times another one.

@@ -154,6 +154,12 @@ impl SplineTarget {
         let within = norm(sub(foot.point, point)) + RIM * self.diagonal;
         self.pieces[piece].nearest_facing(point, normal, within).map_or(foot, |nearest| nearest.foot(point))
     }
+
+    /// True if a spline with this normal at a point is turned over against a piece there; also where it has none.
+    pub(super) fn is_turned_over(&self, piece: usize, point: Vector, normal: Option<Vector>) -> bool {
+        let facing = self.foot_facing(piece, point, self.foot(piece, point), normal);
+        normal.is_none_or(|normal| dot(normal, facing.normal) <= 0.0)
+    }
 }
 
 /// The faces of a target, from which pieces are taken.

@@ -1,4 +1,5 @@
-/* With a library that was built without features: what is left out says so, what is there works. */
+/* With a library that was built without features, and with debug assertions: what is left out says so, what
+ * is there works, a second release is refused. */
 #include <ricci/bicubic.h>
 #include <ricci/quads.h>
 #include <ricci/shapes.h>
@@ -34,5 +35,8 @@ int main(void) {
     ricci_metric_free(flat);
     ricci_metric_free(metric);
     ricci_mesh_free(mesh);
+    /* Builds with debug assertions know which handles are alive. */
+    ricci_mesh_free(mesh);
+    MUST(strstr(ricci_last_error(), "was freed before") != NULL);
     return 0;
 }

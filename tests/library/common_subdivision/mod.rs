@@ -14,7 +14,7 @@ use ricci::mesh::{Double, PerEdge, PerVertex};
 use ricci::metric::Scheme;
 use ricci::{Class, Target};
 
-/// Largest mesh that the optimised tests of a debug build take.
+/// Largest mesh that tests take, so that they are quick in a debug build too.
 const MOST_VERTICES: usize = 3000;
 
 #[test]

@@ -6,7 +6,7 @@ use ricci::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, VertexId, shapes};
 use ricci::metric::lengths_from_positions;
 use ricci::topology::{HomotopyBasis, homotopy_basis};
 
-/// Largest mesh of the corpus that the optimised tests of a debug build use.
+/// Largest mesh of the corpus that tests use, so that they are quick in a debug build too.
 const MOST_VERTICES: usize = 20_000;
 
 pub type Surface = (String, Mesh, PerEdge<f64>);

@@ -9,7 +9,7 @@ use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::mesh::{Mesh, PerEdge};
 use ricci::metric::lengths_from_positions;
 
-/// Largest mesh of the corpus that the optimised tests of a debug build take.
+/// Largest mesh of the corpus that tests take, so that they are quick in a debug build too.
 const MOST_VERTICES: usize = 6000;
 
 pub struct Surface {
