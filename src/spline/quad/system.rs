@@ -60,7 +60,7 @@ struct SpanPlace {
 /// A direction of a patch with a number of spans.
 struct SpanDirection {
     places: Vec<SpanPlace>,
-    /// The places at which a fit is measured, each with the number of the nearest of the others.
+    /// The places between the ends at which a fit is measured, each with the number of the nearest of the others.
     measured: Vec<(QuinticBasis, usize)>,
     /// ∫ of the products of the derivatives of order 0, 1 and 2 of two basis functions i and j, at i · n + j of n functions.
     products: [Vec<f64>; 3],
@@ -197,7 +197,7 @@ impl QuadSystem {
         })
     }
 
-    /// The places of a patch at which a fit is measured, each with the number of the nearest of [`QuadSystem::places`].
+    /// The places within a patch at which a fit is measured, each with the number of the nearest of [`QuadSystem::places`].
     pub fn measured(&self, p: usize) -> impl Iterator<Item = ([&QuinticBasis; 2], usize)> + '_ {
         let [of_u, of_v] = self.space.patch_spans(p).map(|spans| &self.along[&spans]);
         let n = of_v.places.len();
@@ -348,7 +348,7 @@ impl SpanDirection {
     }
 }
 
-/// The places of a direction at which a fit is measured, with the nearest of others.
+/// The places of a direction, but for its ends, at which a fit is measured, with the nearest of others.
 fn measured(spans: usize, places: &[SpanPlace]) -> Vec<(QuinticBasis, usize)> {
     let at = |k: usize| {
         let parameter = measured_parameter(k);
@@ -361,7 +361,7 @@ fn measured(spans: usize, places: &[SpanPlace]) -> Vec<(QuinticBasis, usize)> {
         };
         (QuinticBasis::at(spans, parameter), nearest)
     };
-    (0..MEASURED).map(at).collect()
+    (1..MEASURED - 1).map(at).collect()
 }
 
 /// The k-th of the parameters at which a fit is measured, from 0 to 1.
