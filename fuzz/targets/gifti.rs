@@ -13,7 +13,10 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     }
     if let Ok(GiftiNotes { metadata, .. }) = parse_gifti_notes(data, "input") {
         let notes = GiftiNotes { metadata, ..GiftiNotes::default() };
-        let bytes = gifti_values(&[], &notes).expect("notes are written");
-        assert_eq!(parse_gifti_notes(&bytes, "input").expect("and read"), notes);
+        // Characters that XML has not are read, and not written.
+        match gifti_values(&[], &notes) {
+            Ok(bytes) => assert_eq!(parse_gifti_notes(&bytes, "input").expect("and read"), notes),
+            Err(e) => assert!(e.to_string().contains("characters that XML has"), "{e}"),
+        }
     }
 });

@@ -44,7 +44,7 @@ pub(super) trait GiftiVisitor {
         Ok(())
     }
 
-    /// A part of a transform: the name of its element, `DataSpace`, `TransformedSpace` or `MatrixData`, and the text.
+    /// A part of a transform of points: the name of its element, `DataSpace`, `TransformedSpace` or `MatrixData`, and the text.
     fn transform(&mut self, _element: &str, _text: &str, _place: Location<'_>) -> Result<()> {
         Ok(())
     }
@@ -127,7 +127,10 @@ impl OpenElements {
                 visitor.note(array.as_ref(), [&self.name, &value], place)
             }
             ("Label", None) => visitor.label(tag, &plain(text), place),
-            (element @ ("DataSpace" | "TransformedSpace" | "MatrixData"), Some(_)) => {
+            // Some programs give each array a matrix; that of triangles or values says nothing.
+            (element @ ("DataSpace" | "TransformedSpace" | "MatrixData"), Some(array))
+                if array.intent == "NIFTI_INTENT_POINTSET" =>
+            {
                 visitor.transform(element, &plain(text), place)
             }
             _ => Ok(()),

@@ -46,7 +46,8 @@ pub fn write_gifti(path: &Path, soup: &Soup) -> Result<Vec<String>> {
 /// The bytes of a surface (`.surf.gii`).
 ///
 /// # Errors
-/// Those of [`write_gifti`] but for [`Error::Io`].
+/// Those of [`write_gifti`] but for [`Error::Io`]; [`Error::Argument`] for a matrix with a number that is not finite and for text with characters
+/// that XML has not.
 pub fn gifti_surface(soup: &Soup, notes: &GiftiNotes) -> Result<Vec<u8>> {
     soup.check_writable()?;
     let points = OutGifti {
@@ -65,13 +66,13 @@ pub fn gifti_surface(soup: &Soup, notes: &GiftiNotes) -> Result<Vec<u8>> {
         bytes: integers(soup.faces.as_flattened().iter().map(|&v| i64::from(v)))?,
         name: "",
     };
-    Ok(file(&[points, triangles], &[], notes).into_bytes())
+    file(&[points, triangles], &[], notes)
 }
 
 /// The bytes of values at the vertices of a surface (`.shape.gii`), in arrays with names.
 ///
 /// # Errors
-/// [`Error::Argument`] for numbers that are not in the range of single precision.
+/// [`Error::Argument`] for numbers that are not in the range of single precision, and for notes as [`gifti_surface`] has it.
 pub fn gifti_values(values: &[(&str, &[f64])], notes: &GiftiNotes) -> Result<Vec<u8>> {
     let array = |(name, values): &(&'_ str, &[f64])| {
         let bytes = singles(values)?;
@@ -89,13 +90,13 @@ pub fn gifti_values(values: &[(&str, &[f64])], notes: &GiftiNotes) -> Result<Vec
             name,
         })
         .collect();
-    Ok(file(&arrays, &[], notes).into_bytes())
+    file(&arrays, &[], notes)
 }
 
 /// The bytes of labels at the vertices of a surface (`.label.gii`), with their table.
 ///
 /// # Errors
-/// [`Error::Argument`] for a label that the table has not.
+/// [`Error::Argument`] for a label that the table has not, for a part of a colour that is not from 0 to 1, and for notes as [`gifti_surface`] has it.
 pub fn gifti_labels(labels: &[i32], table: &[GiftiLabel], notes: &GiftiNotes) -> Result<Vec<u8>> {
     if let Some(label) = labels.iter().find(|label| table.iter().all(|row| row.key != **label)) {
         return Err(Error::argument("labels", label, "numbers of the table"));
@@ -108,7 +109,10 @@ pub fn gifti_labels(labels: &[i32], table: &[GiftiLabel], notes: &GiftiNotes) ->
         bytes: integers(labels.iter().map(|&label| i64::from(label)))?,
         name: "",
     };
-    Ok(file(&[array], table, notes).into_bytes())
+    if let Some(part) = table.iter().flat_map(|row| row.color).find(|part| !(0.0..=1.0).contains(part)) {
+        return Err(Error::argument("color", part, "from 0 to 1"));
+    }
+    file(&[array], table, notes)
 }
 
 /// The bytes of single-precision numbers; a NaN stays one.
@@ -142,7 +146,26 @@ fn integers(values: impl Iterator<Item = i64>) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn file(arrays: &[OutGifti<'_>], table: &[GiftiLabel], notes: &GiftiNotes) -> String {
+/// Refuses what no reader takes: characters that XML has not, and numbers of a matrix that are none.
+fn check_readable(arrays: &[OutGifti<'_>], table: &[GiftiLabel], notes: &GiftiNotes) -> Result<()> {
+    let texts = notes.metadata.iter().flat_map(|(name, value)| [name.as_str(), value]);
+    let texts = texts.chain(notes.transforms.iter().flat_map(|way| [way.from.as_str(), &way.to]));
+    let texts =
+        texts.chain(table.iter().map(|row| row.name.as_str())).chain(arrays.iter().map(|array| array.name));
+    let foreign = |c: char| (c < ' ' && !"\t\n\r".contains(c)) || matches!(c, '\u{fffe}' | '\u{ffff}');
+    for text in texts {
+        if let Some(c) = text.chars().find(|c| foreign(*c)) {
+            return Err(Error::argument("text", c.escape_default(), "of characters that XML has"));
+        }
+    }
+    match notes.transforms.iter().flat_map(|way| way.matrix.as_flattened()).find(|x| !x.is_finite()) {
+        Some(x) => Err(Error::argument("matrix", x, "of finite numbers")),
+        None => Ok(()),
+    }
+}
+
+fn file(arrays: &[OutGifti<'_>], table: &[GiftiLabel], notes: &GiftiNotes) -> Result<Vec<u8>> {
+    check_readable(arrays, table, notes)?;
     let mut text = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE GIFTI SYSTEM \"http://www.nitrc.org/frs/download.php/115/gifti.dtd\">\n",
     );
@@ -179,7 +202,7 @@ fn file(arrays: &[OutGifti<'_>], table: &[GiftiLabel], notes: &GiftiNotes) -> St
         }
         let _ = writeln!(text, "<Data>{}</Data>\n</DataArray>", encode(&compressed(&array.bytes)));
     }
-    text + "</GIFTI>\n"
+    Ok((text + "</GIFTI>\n").into_bytes())
 }
 
 fn metadata(text: &mut String, facts: &[(&str, &str)]) {
@@ -249,11 +272,26 @@ mod tests {
     }
 
     #[test]
+    fn notes_that_no_reader_takes_are_refused() {
+        let mut wrong = GiftiTransform::default();
+        wrong.matrix[1][3] = f64::NAN;
+        let notes = GiftiNotes { transforms: vec![wrong], ..GiftiNotes::default() };
+        let said = gifti_surface(&triangle(), &notes).unwrap_err().to_string();
+        assert!(said.contains("matrix") && said.contains("NaN"), "{said}");
+        let notes = GiftiNotes { metadata: vec![("a".into(), "b\u{1}".into())], ..GiftiNotes::default() };
+        let said = gifti_values(&[], &notes).unwrap_err().to_string();
+        assert!(said.contains("\\u{1}"), "{said}");
+        assert!(gifti_values(&[("tab\tand line\n", &[1.0])], &GiftiNotes::default()).is_ok());
+    }
+
+    #[test]
     fn numbers_out_of_range_and_labels_without_a_row_are_refused() {
         let far = Soup::new(vec![[1e39, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
         assert!(gifti_surface(&far, &GiftiNotes::default()).is_err());
         let row = GiftiLabel { key: 1, name: "cortex".into(), color: [1.0, 0.0, 0.0, 1.0] };
         assert!(gifti_labels(&[1, 2], std::slice::from_ref(&row), &GiftiNotes::default()).is_err());
+        let bright = GiftiLabel { color: [1.5, 0.0, 0.0, 1.0], ..row.clone() };
+        assert!(gifti_labels(&[1], &[bright], &GiftiNotes::default()).is_err());
         let text = String::from_utf8(gifti_labels(&[1, 1], &[row], &GiftiNotes::default()).unwrap()).unwrap();
         assert!(text.contains("<Label Key=\"1\" Red=\"1\" Green=\"0\""));
     }
