@@ -4,7 +4,7 @@ use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard::output;
 use crate::status::*;
 use ricci::mesh::Point;
-use std::ffi::{CStr, c_char};
+use std::ffi::{CStr, CString, c_char};
 use std::path::PathBuf;
 
 /// An empty list with room for `n` entries.
@@ -203,6 +203,11 @@ pub fn text<'a>(what: &str, text: *const c_char) -> Outcome<&'a str> {
     // SAFETY: NUL-terminated (contract of the header), and alive during the call.
     let text = unsafe { CStr::from_ptr(text) };
     text.to_str().map_err(|_| Failure::argument(format!("{what} is not UTF-8")))
+}
+
+/// A text of a result as C has it; a zero in it would end it.
+pub fn output_text(text: &str) -> CString {
+    CString::new(text.replace('\0', "\u{fffd}")).unwrap_or_default()
 }
 
 /// A caller's file name.

@@ -1,5 +1,6 @@
 //! The texts of a defect of a triangle list, or of a hint, as C has them.
 
+use crate::arrays::output_text;
 use crate::structs::sized;
 use crate::wording::in_functions;
 use ricci::mesh::check::{Defect, Hint};
@@ -29,9 +30,7 @@ impl DefectTexts {
     }
 
     fn new(texts: [String; 3], vertices: Vec<u32>, faces: Vec<u32>) -> DefectTexts {
-        let text =
-            |words: String| CString::new(in_functions(&words).replace('\0', "\u{fffd}")).unwrap_or_default();
-        let [code, message, remedy] = texts.map(text);
+        let [code, message, remedy] = texts.map(|words| output_text(&in_functions(&words)));
         DefectTexts { code, message, remedy, vertices, faces }
     }
 

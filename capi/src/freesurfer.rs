@@ -1,39 +1,18 @@
 //! Data at the vertices of surfaces in the files of FreeSurfer: values, labels, annotations, patches.
 
-use crate::arrays::{self, check_buffer, copy_counted, copy_out, path, text};
+use crate::arrays::{self, check_buffer, copy_counted, copy_out, text};
+use crate::data_file::{read, write};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, output};
-use crate::memory;
 use crate::status::ricci_status;
 use ricci::mesh::io::freesurfer::{
     Annotation, AnnotationEntry, SurfacePatch, VertexLabel, annotation_bytes, label_text, parse_annotation,
     parse_label, parse_patch, parse_values, patch_bytes, values_bytes,
 };
-use ricci::mesh::io::{file_bytes, packed_for, write_atomically};
 use std::ffi::c_char;
-use std::io::Write;
-use std::path::Path;
 
 /// The region of a vertex in none, and the vertex of a point of the volume.
 const NONE: i32 = -1;
-
-/// Most bytes per byte of a file while it is packed: it and its packed form, which is longer where nothing repeats.
-const PACKED: usize = 4;
-
-/// The bytes of a file, unpacked, and its name in messages.
-fn read(name: *const c_char) -> Outcome<(Vec<u8>, String)> {
-    let path = path(name)?;
-    let _reserve = memory::file(&path)?;
-    Ok((file_bytes(&path)?, path.display().to_string()))
-}
-
-/// Writes bytes whole or not at all; packed where the name says so.
-fn write(path: &Path, bytes: Vec<u8>) -> Outcome {
-    // Packing takes a third of a megabyte and as much as it packs.
-    let _reserve = memory::work(bytes.len(), PACKED)?;
-    let bytes = packed_for(path, bytes)?;
-    Ok(write_atomically(path, |out| out.write_all(&bytes))?)
-}
 
 /// Checks that a buffer that is asked for has room.
 fn asked<T>(what: &str, n: usize, buffer: *mut T, capacity: usize) -> Outcome<bool> {

@@ -127,6 +127,26 @@ left_out!(quad_splines, all(feature = "quads", feature = "splines"), "quads,spli
     ricci_quad_spline_free;
 ]);
 
+left_out!(gifti, feature = "gifti", "gifti", "notes, values and labels of GIFTI", [
+    ricci_gifti_notes_new(Address);
+    ricci_gifti_notes_read(Address, Address);
+    ricci_gifti_notes_add(Address, Address, Address);
+    ricci_gifti_notes_add_transform(Address, Address, Address, Address);
+    ricci_gifti_notes_count(Address, Address, Address);
+    ricci_gifti_notes_get(Address, usize, Address, usize);
+    ricci_gifti_notes_transform(Address, usize, Address, usize);
+    ricci_gifti_columns_read(Address, Address);
+    ricci_gifti_columns_count(Address, Address, Address);
+    ricci_gifti_columns_get(Address, usize, Address, usize);
+    ricci_gifti_columns_label(Address, usize, Address, usize);
+    ricci_gifti_surface_write(Address, Address, usize, Address, usize, Address);
+    ricci_gifti_values_write(Address, Address, Address, usize, usize, Address);
+    ricci_gifti_labels_write(Address, Address, usize, Address, Address, Address, usize, Address);
+], [
+    ricci_gifti_notes_free;
+    ricci_gifti_columns_free;
+]);
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -144,6 +164,8 @@ mod tests {
         assert_eq!(last(), "splines were left out when this library was built (cargo feature `splines`)");
         assert_eq!(quads::ricci_seamless_new(null(), null(), null(), null()), RICCI_LEFT_OUT);
         assert!(last().starts_with("seamless metrics and quad meshes were left out"), "{}", last());
+        assert_eq!(gifti::ricci_gifti_notes_new(null()), RICCI_LEFT_OUT);
+        assert!(last().ends_with("(cargo feature `gifti`)"), "{}", last());
         splines::ricci_spline_free(null());
         quads::ricci_quads_free(null());
     }

@@ -31,10 +31,11 @@ mod arrays;
 mod boundary;
 mod call_control;
 mod choice;
+mod data_file;
 mod failure;
 pub mod flatten;
 mod float_environment;
-#[cfg(any(test, not(all(feature = "quads", feature = "splines"))))]
+#[cfg(any(test, not(all(feature = "gifti", feature = "quads", feature = "splines"))))]
 mod functions_left_out;
 mod guard;
 #[cfg(not(all(feature = "gltf", feature = "quads", feature = "step")))]
@@ -69,6 +70,10 @@ pub mod domain;
 pub mod flow;
 pub mod forms;
 mod freesurfer;
+#[cfg(feature = "gifti")]
+pub mod gifti;
+#[cfg(feature = "gifti")]
+pub mod gifti_columns;
 pub mod harmonic;
 pub mod homotopy;
 pub mod init;

@@ -1,11 +1,12 @@
 //! Log messages of the library, which go to a callback of the host.
 
+use crate::arrays::output_text;
 use crate::choice::choices;
 use crate::guard;
 use crate::status::ricci_status;
 use crate::wording::in_functions;
 use log::{LevelFilter, Log, Metadata, Record};
-use std::ffi::{CString, c_char, c_void};
+use std::ffi::{c_char, c_void};
 use std::sync::{PoisonError, RwLock};
 
 choices!(LEVELS: LevelFilter = "level", [
@@ -42,8 +43,7 @@ impl Log for SinkLogger {
 
     fn log(&self, record: &Record<'_>) {
         let level = LEVELS.number(record.level().to_level_filter()).unwrap_or_default();
-        let text = CString::new(in_functions(&record.args().to_string()).replace('\0', "\u{fffd}"))
-            .unwrap_or_default();
+        let text = output_text(&in_functions(&record.args().to_string()));
         if let Some(sink) = &*SINK.read().unwrap_or_else(PoisonError::into_inner) {
             // SAFETY: the caller's function and data, valid until replaced (contract of the header).
             unsafe { (sink.callback)(level, text.as_ptr(), sink.user_data) };

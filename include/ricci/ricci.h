@@ -21,10 +21,11 @@
  * on the faces of the mesh, and in charts), homotopy.h (fundamental groups), uniformize.h (canonical shapes),
  * deck.h (deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), quads.h (quad
  * meshes, and layouts of four-sided patches), flatten.h (flat maps of least stretch, cortices), freesurfer.h
- * (its data), harmonic.h (harmonic maps and 1-forms), match.h (maps between surfaces), structure.h (geometric
- * structures), spline.h, surface_spline.h and bicubic.h (splines, splines over whole surfaces, and patches
- * for CAD), quad_spline.h (splines over four-sided patches, for CAD and for analysis). For C++ ricci.hpp has
- * the classes of all themes, and openmesh.hpp, cgal.hpp and eigen.hpp are adapters.
+ * (its data), gifti.h (files of GIFTI with notes), harmonic.h (harmonic maps and 1-forms), match.h (maps
+ * between surfaces), structure.h (geometric structures), spline.h, surface_spline.h and bicubic.h (splines,
+ * splines over whole surfaces, and patches for CAD), quad_spline.h (splines over four-sided patches, for CAD
+ * and for analysis). For C++ ricci.hpp has the classes of all themes, and openmesh.hpp, cgal.hpp and
+ * eigen.hpp are adapters.
  *
  * Conventions
  *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,
@@ -61,8 +62,8 @@
  *     suffice for as many as are asked for, there are fewer. Nothing is printed.
  *   - A build can leave parts out (RICCI_FEATURES of CMake); their functions stay. Without `gltf`, `gifti`,
  *     `gzip` or `step` such files are RICCI_UNKNOWN_FORMAT, as is a texture for .glb. Without `splines` all
- *     of spline.h, surface_spline.h and bicubic.h, without `quads` all of seamless.h and quads.h answers
- *     RICCI_LEFT_OUT.
+ *     of spline.h, surface_spline.h and bicubic.h, without `quads` all of seamless.h and quads.h, without
+ *     `gifti` all of gifti.h answers RICCI_LEFT_OUT.
  *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS and Windows, not tested there.
  *
  * Sources, by the keys of docs/bibliography.md: the unified Ricci flow [ZGZLYG14], its convergence with flips

@@ -1,7 +1,7 @@
 // All of ricci for C++: the classes of every theme. A program that includes one theme only compiles faster:
 // ricci/core.hpp (flattening), repair.hpp, uniformize.hpp (with homotopy.h and charts.h), circles.hpp,
-// seamless.hpp, quads.hpp, flatten.hpp, freesurfer.hpp, harmonic.hpp, match.hpp, moduli.hpp, structure.hpp,
-// spline.hpp, bicubic.hpp, quad_spline.hpp, texture.hpp, archive.hpp.
+// seamless.hpp, quads.hpp, flatten.hpp, freesurfer.hpp, gifti.hpp, harmonic.hpp, match.hpp, moduli.hpp,
+// structure.hpp, spline.hpp, bicubic.hpp, quad_spline.hpp, texture.hpp, archive.hpp.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef RICCI_HPP
@@ -13,6 +13,7 @@
 #include <ricci/core.hpp>
 #include <ricci/flatten.hpp>
 #include <ricci/freesurfer.hpp>
+#include <ricci/gifti.hpp>
 #include <ricci/harmonic.hpp>
 #include <ricci/match.hpp>
 #include <ricci/moduli.hpp>

@@ -48,6 +48,7 @@ fn files() -> &'static [CString] {
             ("stl/ascii", "m.stl"),
             ("glb/plain", "m.glb"),
             ("gifti/ascii", "m.gii"),
+            ("gifti/labels", "m.label.gii"),
             ("spline/triangle.json", "s.json"),
             ("obj/plain", "text.glb"),
         ];
@@ -60,6 +61,7 @@ fn files() -> &'static [CString] {
             "n.off",
             "n.ply",
             "n.glb",
+            "n.gii",
             "n.json",
             "n.step",
             "folder.obj",
@@ -159,7 +161,7 @@ impl Session<'_> {
             // Of a curve, whose genus is half of it.
             "n_points" => self.tape.below(20),
             "limit" => 1 + self.tape.below(200),
-            "n_curves" | "n_basis" | "n_straight" => self.tape.below(9),
+            "n_curves" | "n_basis" | "n_straight" | "n_columns" => self.tape.below(9),
             "rings" => self.tape.below(4),
             "control_points" => 1 + self.tape.below(60),
             _ => self.tape.count(self.needed),

@@ -11,6 +11,8 @@ use ricci_c::dirichlet::ricci_dirichlet_new;
 use ricci_c::domain::ricci_domain_new;
 use ricci_c::flow::ricci_flow;
 use ricci_c::forms::ricci_forms_new;
+use ricci_c::gifti::{ricci_gifti_notes_add, ricci_gifti_notes_read};
+use ricci_c::gifti_columns::ricci_gifti_columns_read;
 use ricci_c::homotopy::ricci_homotopy_new;
 use ricci_c::layout::ricci_layout_new;
 use ricci_c::map::ricci_map_new;
@@ -161,6 +163,17 @@ impl Shelf {
         let options = ricci_texture_options { page: 64, threads: 1, ..zeroed() };
         let atlas = made(|p| unsafe { ricci_texture_atlas_new(soup, &options, null(), p) });
         self.put("ricci_texture_atlas", atlas);
+        let seed = |name: &str| {
+            let path = format!("{}/seeds/gifti/{name}", env!("CARGO_MANIFEST_DIR"));
+            std::ffi::CString::new(path).expect("a path has no zero")
+        };
+        for name in ["ascii", "labels"] {
+            let notes = made(|p| unsafe { ricci_gifti_notes_read(seed(name).as_ptr(), p) });
+            assert_eq!(unsafe { ricci_gifti_notes_add(notes, c"a".as_ptr(), c"b".as_ptr()) }, 0);
+            self.put("ricci_gifti_notes", notes);
+            let columns = made(|p| unsafe { ricci_gifti_columns_read(seed(name).as_ptr(), p) });
+            self.put("ricci_gifti_columns", columns);
+        }
         self.put("ricci_control", made(|p| unsafe { ricci_control_new(p) }));
         let cancelled = made(|p| unsafe { ricci_control_new(p) });
         assert_eq!(unsafe { ricci_control_cancel(cancelled) }, 0);

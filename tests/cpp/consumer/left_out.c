@@ -1,6 +1,7 @@
 /* With a library that was built without features, and with debug assertions: what is left out says so, what
  * is there works, a second release is refused. */
 #include <ricci/bicubic.h>
+#include <ricci/gifti.h>
 #include <ricci/quads.h>
 #include <ricci/shapes.h>
 #include <stdio.h>
@@ -20,6 +21,7 @@ int main(void) {
     ricci_metric *metric = NULL, *flat = NULL;
     ricci_spline *spline = NULL;
     ricci_seamless *seamless = NULL;
+    ricci_gifti_notes *notes = NULL;
     MUST(ricci_init(&shape, sizeof shape) == RICCI_OK);
     shape.shape = RICCI_SHAPE_TORUS, shape.n = 16, shape.m = 8, shape.a = 2, shape.b = 1;
     MUST(ricci_make(&shape, &mesh) == RICCI_OK);
@@ -28,10 +30,12 @@ int main(void) {
     MUST(ricci_spline_fit_surface(flat, NULL, NULL, &spline) == RICCI_LEFT_OUT && !spline);
     MUST(strstr(ricci_last_error(), "splines were left out") != NULL);
     MUST(ricci_seamless_new(mesh, NULL, NULL, &seamless) == RICCI_LEFT_OUT && !seamless);
+    MUST(ricci_gifti_notes_new(&notes) == RICCI_LEFT_OUT && !notes);
     MUST(ricci_mesh_write(mesh, NULL, "left_out.glb") == RICCI_UNKNOWN_FORMAT);
     MUST(ricci_mesh_write(mesh, NULL, "left_out.obj") == RICCI_OK);
     ricci_spline_free(spline);
     ricci_seamless_free(seamless);
+    ricci_gifti_notes_free(notes);
     ricci_metric_free(flat);
     ricci_metric_free(metric);
     ricci_mesh_free(mesh);
