@@ -44,6 +44,7 @@ HEADERS = (
     "seamless",
     "quads",
     "freesurfer",
+    "gifti",
     "harmonic",
     "match",
     "moduli",

@@ -68,6 +68,18 @@ from ricci.freesurfers import (
 )
 from ricci.fundamental import Domain, Homotopy, homotopy
 from ricci.gifti import Gifti, from_gifti, to_gifti
+from ricci.gifti_files import (
+    GiftiColumn,
+    GiftiColumns,
+    GiftiLabel,
+    GiftiNotes,
+    GiftiTransform,
+    read_gifti_columns,
+    read_gifti_notes,
+    write_gifti_labels,
+    write_gifti_surface,
+    write_gifti_values,
+)
 from ricci.layouts import Layout, LayoutOptions, RepairedInput, SheetLine, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
@@ -136,6 +148,11 @@ __all__ = [
     "Forms",
     "FormsOptions",
     "Gifti",
+    "GiftiColumn",
+    "GiftiColumns",
+    "GiftiLabel",
+    "GiftiNotes",
+    "GiftiTransform",
     "HarmonicMap",
     "HarmonicOptions",
     "Hole",
@@ -248,6 +265,8 @@ __all__ = [
     "quads",
     "read",
     "read_annotation",
+    "read_gifti_columns",
+    "read_gifti_notes",
     "read_label",
     "read_patch",
     "read_values",
@@ -266,6 +285,9 @@ __all__ = [
     "to_trimesh",
     "uniformize",
     "write_annotation",
+    "write_gifti_labels",
+    "write_gifti_surface",
+    "write_gifti_values",
     "write_label",
     "write_patch",
     "write_values",
