@@ -82,6 +82,13 @@ fn given(notes: *const ricci_gifti_notes) -> Outcome<GiftiNotes> {
     if notes.is_null() { Ok(GiftiNotes::default()) } else { Ok(shared(notes)?.notes()) }
 }
 
+/// A copy of a caller's text, with memory for it.
+fn kept(what: &str, given: *const c_char) -> Outcome<CString> {
+    let words = text(what, given)?;
+    memory::for_call(words.len() / NOTE_BYTES)?;
+    Ok(output_text(words))
+}
+
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct ricci_gifti_note {
@@ -132,8 +139,9 @@ pub unsafe extern "C" fn ricci_gifti_notes_add(
     value: *const c_char,
 ) -> ricci_status {
     guard::call(|| {
-        let note = [output_text(text("name", name)?), output_text(text("value", value)?)];
+        let note = [kept("name", name)?, kept("value", value)?];
         guard::change(notes, |notes| {
+            memory::for_call(notes.metadata.len())?;
             notes.metadata.push(note);
             Ok(())
         })
@@ -148,7 +156,7 @@ pub unsafe extern "C" fn ricci_gifti_notes_add_transform(
     matrix: *const f64,
 ) -> ricci_status {
     guard::call(|| {
-        let (from, to) = (output_text(text("from", from)?), output_text(text("to", to)?));
+        let (from, to) = (kept("from", from)?, kept("to", to)?);
         let numbers: Vec<f64> = array("matrix", matrix, 16)?;
         if let Some(k) = numbers.iter().position(|x| !x.is_finite()) {
             let why = format!("matrix: entry {k} is {}, a finite number is needed", numbers[k]);
@@ -156,6 +164,7 @@ pub unsafe extern "C" fn ricci_gifti_notes_add_transform(
         }
         let matrix = std::array::from_fn(|k| numbers[k]);
         guard::change(notes, |notes| {
+            memory::for_call(notes.transforms.len())?;
             notes.transforms.push(TransformTexts { from, to, matrix });
             Ok(())
         })

@@ -72,6 +72,11 @@ TAKES = {
     "to_pyvista": (ricci.to_pyvista, "mesh layout"),
     "to_gifti": (ricci.to_gifti, "mesh layout"),
     "uniformize": (ricci.uniformize, "mesh"),
+    "read_gifti_notes": (ricci.read_gifti_notes, ""),
+    "read_gifti_columns": (ricci.read_gifti_columns, ""),
+    "write_gifti_surface": (lambda x: ricci.write_gifti_surface("x.gii", x), "mesh"),
+    "write_gifti_values": (lambda x: ricci.write_gifti_values("x.gii", x), ""),
+    "write_gifti_labels": (lambda x: ricci.write_gifti_labels("x.gii", [1], x), ""),
     "read": (ricci.read, ""),
     "job": (lambda x: Job("flow", x), ""),
     "cohort": (lambda x: ricci.cohort(["a.obj"], x, "never"), ""),
@@ -94,6 +99,7 @@ FINE = {
     "base": (type(None), int),
     "job": (dict,),
     "cohort": (type(print),),
+    "write_gifti_values": (dict,),
 }
 
 

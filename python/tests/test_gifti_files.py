@@ -105,6 +105,7 @@ def test_what_is_wrong_is_refused_and_leaves_no_file(ball, tmp_path):
         (lambda: ricci.write_gifti_values(path, {"a": [1e39]}), "single precision"),
         (lambda: ricci.write_gifti_values(path, [1, 2]), "a dict"),
         (lambda: ricci.write_gifti_labels(path, [5], [(3, "a", (0, 0, 0, 1))]), "5"),
+        (lambda: ricci.write_gifti_labels(path, [5], [(5, "a", "red")]), "colour"),
         (lambda: ricci.write_gifti_labels(path, [0.5], [(3, "a", (0, 0, 0, 1))]), "integers"),
     ]:
         with pytest.raises(ricci.ArgumentError, match=words):

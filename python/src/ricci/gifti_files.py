@@ -281,9 +281,11 @@ def write_gifti_labels(path: FileName, labels: npt.ArrayLike, table: Sequence[Gi
     'cuneus'
     """
     numbers = _arrays.signed(labels, "labels")
-    rows = [GiftiLabel(*row) for row in table]
+    rows = _rows(table)
     keys = _arrays.signed([row.key for row in rows], "keys")
-    colors = _arrays.real(np.array([row.color for row in rows], float).reshape(-1, 4), 4, "colors")
+    if not all(np.shape(row.color) == (4,) for row in rows):
+        raise ArgumentError("a colour is four numbers: red, green, blue and opacity")
+    colors = _arrays.real([row.color for row in rows] or np.empty((0, 4)), 4, "colors")
     names, told = _lines(row.name for row in rows), _told(notes)
     call(
         lib.ricci_gifti_labels_write,
@@ -333,6 +335,13 @@ def _text(text: Any) -> bytes:
 def _lines(names: Any) -> bytes:
     """Names, one to a line."""
     return b"".join(_text(name) + b"\n" for name in names)
+
+
+def _rows(table: Any) -> list[GiftiLabel]:
+    """The rows of a table of labels."""
+    if not isinstance(table, Sequence) or not all(isinstance(row, tuple | list) and len(row) == 3 for row in table):
+        raise ArgumentTypeError("a table is a list of labels: key, name and colour of each")
+    return [GiftiLabel(*row) for row in table]
 
 
 def _told(notes: GiftiNotes | None) -> Any:
