@@ -44,6 +44,7 @@ mod quintic;
 #[cfg(feature = "quads")]
 mod relaxed_quads;
 mod space;
+mod span_direction;
 mod spline;
 #[cfg(feature = "step")]
 mod step;
