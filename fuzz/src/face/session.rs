@@ -284,7 +284,10 @@ impl Session<'_> {
                     Kind::Text => {
                         let place = u64::from_ne_bytes(bytes[at..at + 8].try_into().unwrap());
                         let says = !text(place as *const c_char).is_empty();
-                        assert!(says || MAY_BE_EMPTY.contains(&(of.name, field)), "{name}: {field} says nothing");
+                        assert!(
+                            says || MAY_BE_EMPTY.contains(&(of.name, field)),
+                            "{name}: {field} says nothing"
+                        );
                     }
                     // An object that the call has made, and that this session releases.
                     Kind::Own(made) => {
