@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -14,6 +13,7 @@ from ricci._call import Doubles, call, path_bytes, pointer
 from ricci._library import ffi, lib
 from ricci.adapters import MeshLike, as_mesh
 from ricci.errors import ArgumentError, ArgumentTypeError
+from ricci.freesurfers import FileName
 
 __all__ = [
     "GiftiColumn",
@@ -27,8 +27,6 @@ __all__ = [
     "write_gifti_surface",
     "write_gifti_values",
 ]
-
-FileName = str | os.PathLike[str]
 
 
 class GiftiTransform(NamedTuple):

@@ -240,7 +240,7 @@ impl PatchIterate {
             is_folded |= at.normal().is_none_or(|normal| dot(normal, foot.normal) <= 0.0);
             feet.push(foot);
         }
-        // Small folds lie between these places, and a fit is not measured at them.
+        // Small folds lie between these places, where a fit is measured.
         let turns = |([u, v], k): ([&QuinticBasis; 2], usize)| {
             let at = spline.combined(p, u, v);
             let normal = at.normal();

@@ -9,6 +9,7 @@ const PLACES_OF_ONE_SPAN: usize = 2 * QUINTIC;
 const PLACES_OF_A_SPAN: usize = 7;
 /// Places in each direction of a patch at which a fit is measured: other ones than those at which distances are taken.
 pub(super) const MEASURED: usize = 23;
+
 /// A place along a direction of a patch.
 #[derive(Clone, Copy)]
 pub(super) struct SpanPlace {
