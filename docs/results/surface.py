@@ -16,7 +16,7 @@ from page import build, file_of, loops, main, meshes, plain, small, table, verdi
 # Vertices of the meshes.
 LEAST, MOST = 300, 13_000
 # Most seconds of a run.
-LONGEST = 300
+LONGEST = 150
 
 HEAD = ["mesh", "V", "genus", "cones", "faces", "spans", "distance: most, rms", "noise", "folded", "normals of neighbours, °", "volume off by", "MB", "s of the processor", "OpenCASCADE",
         "holds"]

@@ -68,6 +68,31 @@ impl Pattern {
         Ok(Pattern { column_start: start, row })
     }
 
+    /// The pattern of a matrix with a block of this many rows and columns for each entry of this one: all of its entries are in the pattern.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TooLarge`] for more entries than a u32 can number.
+    pub fn of_blocks(&self, size: usize) -> Result<Pattern> {
+        let n = self.size();
+        let total = size * size * (self.entries() - n) + n * size * (size + 1) / 2;
+        if total >= u32::MAX as usize {
+            return Err(Error::TooLarge { what: "matrix entries", count: total });
+        }
+        let (mut column_start, mut row) = (Vec::with_capacity(n * size + 1), Vec::with_capacity(total));
+        column_start.push(0);
+        let rows_of = |block: usize| (size * block) as u32..(size * (block + 1)) as u32;
+        for j in 0..n {
+            let below = self.column_start[j] as usize + 1..self.column_start[j + 1] as usize;
+            for c in 0..size {
+                row.extend(rows_of(j).skip(c));
+                row.extend(self.row[below.clone()].iter().flat_map(|&i| rows_of(i as usize)));
+                column_start.push(row.len() as u32);
+            }
+        }
+        Ok(Pattern { column_start, row })
+    }
+
     /// Number of rows.
     pub fn size(&self) -> usize {
         self.column_start.len() - 1

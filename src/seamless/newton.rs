@@ -1,7 +1,7 @@
 //! Newton's method for the angles around vertices and along loops, by least changes of the Penner coordinates.
 
 use super::holonomy_state::{HolonomyState, HolonomyTarget, largest};
-use super::least_norm::least_norm_solution;
+use super::least_norm::LeastNorm;
 use super::opening::opening_step;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
@@ -48,6 +48,7 @@ pub(super) fn reach_holonomy(
 ) -> Result<NewtonEnd> {
     let mut missing = state.residual(target);
     let (mut slow, mut short) = (0, 0);
+    let mut equations = LeastNorm::default();
     for iterations in 0..most_iterations {
         control.step(Stage::Flow, iterations as f64 / most_iterations as f64)?;
         let error = largest(&missing);
@@ -55,7 +56,7 @@ pub(super) fn reach_holonomy(
         if error == 0.0 || slow > SLOW_STEPS || short > SHORT_STEPS {
             return end(state);
         }
-        let step = match opening_step(&state, &missing, control) {
+        let step = match opening_step(&state, &missing, &mut equations, control) {
             // Triangles are so thin that no step can be told.
             Err(Error::Factorisation { .. }) => return end(state),
             step => step?,
@@ -102,6 +103,7 @@ pub(super) fn come_near(
     control: &Control,
 ) -> Result<NewtonEnd> {
     let mut distance = end.state.length_change()?;
+    let mut equations = LeastNorm::default();
     for k in 0..steps {
         control.step(Stage::Flow, k as f64 / steps as f64)?;
         let state = &end.state;
@@ -111,7 +113,7 @@ pub(super) fn come_near(
         let along = |row: &Vec<(u32, f64)>| row.iter().map(|&(e, x)| x * step[e as usize]).sum::<f64>();
         let right: Vec<f64> =
             rows.iter().zip(state.residual(target)).map(|(row, missing)| missing - along(row)).collect();
-        let back = match least_norm_solution(&rows, step.len(), &right, control) {
+        let back = match equations.solution(&rows, step.len(), &right, control) {
             Err(Error::Factorisation { .. }) => break,
             back => back?,
         };

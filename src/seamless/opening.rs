@@ -1,7 +1,7 @@
 //! Steps that keep triangles at features from closing: their sides are not flipped, so they would hold Newton's method up.
 
 use super::holonomy_state::{HolonomyState, largest};
-use super::least_norm::least_norm_solution;
+use super::least_norm::LeastNorm;
 use crate::control::Control;
 use crate::error::Result;
 use std::f64::consts::PI;
@@ -16,8 +16,13 @@ const SLACK: f64 = 0.1;
 /// The least change of λ that removes what is missing to first order, while wide angles opposite to features become smaller.
 ///
 /// # Errors
-/// Those of [`least_norm_solution`].
-pub(super) fn opening_step(state: &HolonomyState, missing: &[f64], control: &Control) -> Result<Vec<f64>> {
+/// Those of [`LeastNorm::solution`].
+pub(super) fn opening_step(
+    state: &HolonomyState,
+    missing: &[f64],
+    equations: &mut LeastNorm,
+    control: &Control,
+) -> Result<Vec<f64>> {
     let (mut rows, mut right) = (state.derivatives(), missing.to_vec());
     let (n, share) = (state.mesh.n_edges(), largest(missing).min(OPENED));
     let mut columns = n;
@@ -35,7 +40,7 @@ pub(super) fn opening_step(state: &HolonomyState, missing: &[f64], control: &Con
             }
         }
     }
-    let mut step = least_norm_solution(&rows, columns, &right, control)?;
+    let mut step = equations.solution(&rows, columns, &right, control)?;
     step.truncate(n);
     Ok(step)
 }

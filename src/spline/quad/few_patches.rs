@@ -1,7 +1,8 @@
-//! Splines of few patches: over the coarsest layouts of seamless metrics with other cones in turn, until one is within the tolerance.
+//! Splines of few patches: over the coarsest layouts of seamless metrics with several choices of cones, of which short fits tell the most
+//! promising.
 
 use super::fit::QuadFit;
-use super::over_quads::{LayoutFitOptions, fit_quad_layout};
+use super::over_quads::{LayoutFitOptions, fit_in_rounds, fit_quad_layout};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::EdgeId;
@@ -11,16 +12,22 @@ use crate::seamless::{Seamless, SeamlessCones, SeamlessOptions, placed_cones, se
 
 /// Numbers of placed cones over which fits are tried where none are asked for; then those of the field.
 const PLACED: [usize; 2] = [24, 40];
-/// The multiple of the tolerance beyond which the cones of the field are not tried after placed ones: there they came no nearer, and take longest.
-const HOPELESS: f64 = 3.0;
+/// Layouts with more patches are tried only where there is no other: where placed cones lead to that many, lines wind around thin limbs.
+const MOST_PATCHES: usize = 150;
+/// Rounds of the short fits: with one span in each direction, then with two.
+const SHORT_ROUNDS: usize = 2;
+/// Most choices of cones with which fits are made to the end.
+const MOST_WHOLE: usize = 2;
 /// The factor by which a layout may have more patches than the coarsest one with the same cones, where that does not suffice.
 const MORE_PATCHES: usize = 2;
+/// The multiple of the tolerance beyond which a finer layout is not tried: there none came within it, and they take longest.
+const HOPELESS: f64 = 3.0;
 
 /// Options of [`fit_few_patches`].
 #[derive(Debug, Clone, Default)]
 pub struct FewPatchesOptions {
-    /// The cones, which become corners of patches. None: on a closed surface without features placed ones of several numbers are tried
-    /// ([`placed_cones`]), then those of the field.
+    /// The cones, which become corners of patches. None: on a closed surface without features placed ones of several numbers
+    /// ([`placed_cones`]), then those of the field, of which short fits tell the most promising.
     pub cones: Option<SeamlessCones>,
     /// Edges that become sides of patches, across which normals may jump. Default none.
     pub features: Vec<EdgeId>,
@@ -38,9 +45,9 @@ pub struct LayoutFit {
     pub fit: QuadFit,
 }
 
-/// Fits a spline with few patches to a surface: over the coarsest layout of a seamless metric, with other cones where that is not within the tolerance
-/// or folds, and last over a layout with up to twice as many patches; where placed cones leave more than three times the tolerance, that is the
-/// end. The first fit within the tolerance, or else that with the fewest patches
+/// Fits a spline with few patches to a surface: over the coarsest layout of a seamless metric and, where that is not within three times the tolerance,
+/// one with up to twice as many patches. Of several choices of cones the first whose short fit folds no patch is fitted to the end, then
+/// those whose short fits fold the fewest, two at most in all. The first fit within the tolerance, or else that with the fewest patches
 /// folded, then the least distance.
 ///
 /// # Errors
@@ -50,51 +57,97 @@ pub fn fit_few_patches(
     options: &FewPatchesOptions,
     control: &Control,
 ) -> Result<LayoutFit> {
-    let mut search = FewPatchesSearch { options, best: None };
+    let mut search = FewPatchesSearch { surface, options, whole: 0, best: None };
     // Instrumented builds make one attempt.
     let has_choice = !cfg!(fuzzing)
         && options.cones.is_none()
         && options.features.is_empty()
         && surface.mesh().is_closed();
-    let placed = PLACED.into_iter().filter(|_| has_choice).map(Some);
-    for (k, n) in placed.chain([None]).enumerate() {
-        if n.is_none() && search.is_hopeless() {
-            break;
-        }
-        match search.is_found_with(surface, n, &control.attempt(k)) {
-            Ok(true) => break,
-            Ok(false) => {}
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
-            // There need not be a metric with these cones, nor a layout.
-            Err(error) if n.is_some() || search.best.is_some() => log::debug!("cones {n:?}: {error}"),
-            Err(error) => return Err(error),
-        }
+    let is_found = if has_choice {
+        search.is_found_by_choice(&control.part(0.0, 0.8))?
+    } else {
+        let cones = options.cones.clone().unwrap_or_default();
+        let candidate = search.candidate(cones, &control.part(0.0, 0.1))?;
+        search.is_found_over(candidate, &control.part(0.1, 0.8))?
+    };
+    if !is_found {
+        search.refine(&control.part(0.8, 1.0))?;
     }
     search.best.ok_or_else(|| Error::Layout("no layout of the surface was found".into()))
 }
 
+/// A layout over which a fit can be made.
+struct LayoutCandidate {
+    metric: Seamless,
+    layout: QuadLayout,
+}
+
 /// A search for a fit within the tolerance, with the best so far.
 struct FewPatchesSearch<'a> {
+    surface: &'a Surface,
     options: &'a FewPatchesOptions,
+    /// The number of fits that were made to the end.
+    whole: usize,
     best: Option<LayoutFit>,
 }
 
 impl FewPatchesSearch<'_> {
-    /// True if the best fit so far is so far off that another choice of cones will not do.
-    fn is_hopeless(&self) -> bool {
-        let limit = |fit: &QuadFit| HOPELESS * self.options.fit.limit(fit);
-        self.best.as_ref().is_some_and(|best| best.fit.max() > limit(&best.fit))
+    /// Fits over the coarsest layouts with several choices of cones; true where one is within the tolerance.
+    fn is_found_by_choice(&mut self, control: &Control) -> Result<bool> {
+        let choices = PLACED.map(SeamlessCones::Auto).into_iter().chain([SeamlessCones::Field]);
+        let share = 1.0 / (PLACED.len() + 2) as f64;
+        let part = |k: usize| control.part(k as f64 * share, (k + 1) as f64 * share);
+        let (mut folding, mut fine, mut last_error) = (Vec::new(), None, None);
+        for (k, cones) in choices.enumerate() {
+            let control = part(k);
+            let found = self.candidate(cones, &control.part(0.0, 0.2)).and_then(|candidate| {
+                let is_few = candidate.layout.patches.len() <= MOST_PATCHES;
+                let folded =
+                    if is_few { self.folded_at_first(&candidate, &control.part(0.2, 0.4))? } else { 0 };
+                Ok((candidate, is_few, folded))
+            });
+            match found {
+                Ok((candidate, false, _)) => fine = Some(candidate),
+                Ok((candidate, true, 0)) if self.whole < MOST_WHOLE => {
+                    if self.is_found_over(candidate, &control.part(0.4, 1.0))? {
+                        return Ok(true);
+                    }
+                }
+                Ok((candidate, true, folded)) => folding.push((folded, candidate)),
+                Err(Error::Cancelled) => return Err(Error::Cancelled),
+                // There need not be a metric with these cones, nor a layout.
+                Err(error) => last_error = Some(error),
+            }
+        }
+        folding.sort_by_key(|(folded, _)| *folded);
+        let mut rest: Vec<LayoutCandidate> = folding.into_iter().map(|(_, candidate)| candidate).collect();
+        if rest.is_empty() && self.whole == 0 {
+            rest.extend(fine);
+        }
+        for candidate in rest.into_iter().take(MOST_WHOLE - self.whole) {
+            if self.is_found_over(candidate, &part(PLACED.len() + 1).attempt(self.whole))? {
+                return Ok(true);
+            }
+        }
+        match last_error {
+            Some(error) if self.best.is_none() => Err(error),
+            _ => Ok(false),
+        }
     }
 
-    /// Fits over the coarsest layout with this many placed cones, or with those that were asked for and then over a finer layout as well. True where one
-    /// is within the tolerance.
-    fn is_found_with(&mut self, surface: &Surface, placed: Option<usize>, control: &Control) -> Result<bool> {
-        let cones = match placed
-            .map_or_else(|| self.options.cones.clone().unwrap_or_default(), SeamlessCones::Auto)
-        {
+    /// The number of patches that a short fit over a layout folds.
+    fn folded_at_first(&self, candidate: &LayoutCandidate, control: &Control) -> Result<usize> {
+        let LayoutCandidate { metric, layout } = candidate;
+        let fit = fit_in_rounds(metric, layout, &self.options.fit, SHORT_ROUNDS, control)?;
+        Ok(fit.folded_patches.len())
+    }
+
+    /// The coarsest layout with these cones.
+    fn candidate(&self, cones: SeamlessCones, control: &Control) -> Result<LayoutCandidate> {
+        let cones = match cones {
             // Valences 1 and 2 are none of corners of patches.
             SeamlessCones::Auto(n) => {
-                SeamlessCones::Valences(placed_cones(surface, n, &control.part(0.0, 0.02))?)
+                SeamlessCones::Valences(placed_cones(self.surface, n, &control.part(0.0, 0.1))?)
             }
             other => other,
         };
@@ -104,36 +157,50 @@ impl FewPatchesSearch<'_> {
             threads: self.options.fit.threads,
             ..SeamlessOptions::default()
         };
-        let metric = seamless(surface, &metric, &control.part(0.02, 0.1))?;
-        let (is_found, n) = self.is_found_over(&metric, QuadSize::Coarse, &control.part(0.1, 0.5))?;
-        if is_found || placed.is_some() || cfg!(fuzzing) {
-            return Ok(is_found);
-        }
-        match self.is_found_over(&metric, QuadSize::AtMost(MORE_PATCHES * n), &control.part(0.5, 1.0)) {
-            Ok((is_found, _)) => Ok(is_found),
-            // There need not be another layout.
-            Err(Error::Layout(_)) => Ok(false),
-            Err(error) => Err(error),
-        }
+        let metric = seamless(self.surface, &metric, &control.part(0.1, 0.5))?;
+        let layout = quad_layout(&metric, &self.sized(QuadSize::Coarse), &control.part(0.5, 1.0))?;
+        Ok(LayoutCandidate { metric, layout })
     }
 
-    /// Fits over a layout; true where that is within the tolerance; and the number of its patches.
+    fn sized(&self, size: QuadSize) -> QuadOptions {
+        QuadOptions { size, threads: self.options.fit.threads }
+    }
+
+    /// Fits over a layout; true where that is within the tolerance.
     fn is_found_over(
         &mut self,
-        metric: &Seamless,
-        size: QuadSize,
+        LayoutCandidate { metric, layout }: LayoutCandidate,
         control: &Control,
-    ) -> Result<(bool, usize)> {
+    ) -> Result<bool> {
         let options = &self.options.fit;
-        let sized = QuadOptions { size, threads: options.threads };
-        let layout = quad_layout(metric, &sized, &control.part(0.0, 0.2))?;
+        self.whole += 1;
+        let fit = fit_quad_layout(&metric, &layout, options, control)?;
         let n = layout.patches.len();
-        let fit = fit_quad_layout(metric, &layout, options, &control.part(0.2, 1.0))?;
         log::debug!("{n} patches: distances up to {:.1e}, {} folded", fit.max(), fit.folded_patches.len());
         let is_found = options.is_met_by(&fit);
         if self.best.as_ref().is_none_or(|best| fit.is_better_than(&best.fit)) {
-            self.best = Some(LayoutFit { seamless: metric.clone(), layout, fit });
+            self.best = Some(LayoutFit { seamless: metric, layout, fit });
         }
-        Ok((is_found, n))
+        Ok(is_found)
+    }
+
+    /// Fits over a layout with more patches and the same cones, where the best fit so far is not within the tolerance but not hopeless.
+    fn refine(&mut self, control: &Control) -> Result<()> {
+        let Some(best) = &self.best else { return Ok(()) };
+        let options = &self.options.fit;
+        let is_settled = options.is_met_by(&best.fit) || best.fit.max() > HOPELESS * options.limit(&best.fit);
+        if is_settled || cfg!(fuzzing) {
+            return Ok(());
+        }
+        let (metric, n) = (best.seamless.clone(), best.layout.patches.len());
+        let size = self.sized(QuadSize::AtMost(MORE_PATCHES * n));
+        match quad_layout(&metric, &size, &control.part(0.0, 0.2)) {
+            Ok(layout) if layout.patches.len() > n => {
+                self.is_found_over(LayoutCandidate { metric, layout }, &control.part(0.2, 1.0)).map(drop)
+            }
+            // There need not be another layout.
+            Ok(_) | Err(Error::Layout(_)) => Ok(()),
+            Err(error) => Err(error),
+        }
     }
 }

@@ -38,6 +38,8 @@ mod over_control_mesh;
 mod over_quads;
 #[cfg(feature = "quads")]
 mod patch_grid;
+mod patch_sum;
+mod patch_unknowns;
 mod piece_form;
 mod places;
 mod quintic;

@@ -14,7 +14,7 @@ use crate::geometry::vector::{Vector, distance};
 use crate::parallel;
 use crate::quads::QuadLayout;
 use crate::seamless::Seamless;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The step with which fits from other splines begin, and the multiple of the tolerance within which these must be: others may lack a limb.
@@ -27,6 +27,8 @@ const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
 const ABOUT_AS_LONG: f64 = 1.5;
+/// The multiple of the tolerance beyond which a strip with several spans gets two more at a time.
+const FAR: f64 = 4.0;
 /// The tolerance if none is asked for.
 const USUAL_TOLERANCE: f64 = 1e-3;
 /// The weights of bending if none is asked for: the most, for this noise over the diagonal, and the least.
@@ -88,13 +90,27 @@ pub fn fit_quad_layout(
     options: &LayoutFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
+    fit_in_rounds(seamless, layout, options, usize::MAX, control)
+}
+
+/// [`fit_quad_layout`] that ends after this many rounds.
+///
+/// # Errors
+/// As there.
+pub(super) fn fit_in_rounds(
+    seamless: &Seamless,
+    layout: &QuadLayout,
+    options: &LayoutFitOptions,
+    most_rounds: usize,
+    control: &Control,
+) -> Result<QuadFit> {
     let vertices = layout.mesh.positions(&seamless.solution).ok_or_else(no_positions)?;
     parallel::within(options.threads, || {
         let surface = FittedSurface::new(seamless, layout)?;
         let RelaxedQuads { points, target } = RelaxedQuads::new(layout, vertices, &surface, control)?;
         let spans = vec![1; layout.arcs.len()];
-        LayoutStart::new(surface, &DividedQuads::of_layout(layout, &points), spans)?
-            .fitted(target, options, control)
+        let start = LayoutStart::new(surface, &DividedQuads::of_layout(layout, &points), spans)?;
+        LayoutStart { most_rounds, ..start }.fitted(target, options, control)
     })
 }
 
@@ -107,6 +123,7 @@ pub(super) struct LayoutStart<'a> {
     spans: Vec<usize>,
     /// The first step of the first fit.
     first_step: usize,
+    most_rounds: usize,
 }
 
 impl<'a> LayoutStart<'a> {
@@ -122,7 +139,7 @@ impl<'a> LayoutStart<'a> {
         let grids = divided.grids()?;
         let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
         let patches = divided.patch_layout()?.with_angles(&angles);
-        Ok(LayoutStart { surface, grids, patches, spans, first_step: 0 })
+        Ok(LayoutStart { surface, grids, patches, spans, first_step: 0, most_rounds: usize::MAX })
     }
 
     /// The same with points that lie on the surface as those of a spline do: fits begin with little bending.
@@ -156,6 +173,11 @@ impl<'a> LayoutStart<'a> {
             let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();
+            let most = spans.iter().max().copied().unwrap_or(1);
+            log::debug!(
+                "round {round}: up to {most} spans, distances up to {:.1e}, {folds} folded",
+                fit.max()
+            );
             // More spans are of no use where they turned no patch up again or, where none is turned over, did not bring the last fit nearer.
             let is_gain = |best: &QuadFit| match (folds, best.folded_patches.len()) {
                 (0, 0) => fit.max() <= WORTHWHILE * best.max(),
@@ -168,7 +190,8 @@ impl<'a> LayoutStart<'a> {
             }
             let is_stuck = fruitless > MOST_FRUITLESS;
             // Instrumented builds, in which every round takes minutes, make one.
-            let is_done = options.is_met_by(&fit) || !is_more || is_stuck || cfg!(fuzzing);
+            let is_last = round >= self.most_rounds || cfg!(fuzzing);
+            let is_done = options.is_met_by(&fit) || !is_more || is_stuck || is_last;
             if folds == 0 && !is_done {
                 target = surface.target(&faces_of(&fit.spline, &target))?;
             }
@@ -195,8 +218,8 @@ fn faces_of(spline: &QuadSpline, target: &SplineTarget) -> Vec<Vec<u32>> {
     parallel::map(spline.space().layout().patches().len(), of_patch)
 }
 
-/// Gives one more span to the strips of patches that fold or are not within the tolerance: to that in the direction in which spans are longer, or
-/// to both where they are about as long. False if there is none with fewer than the most.
+/// Gives one more span to the strips of patches that fold or are not within the tolerance, two where they are far from it: to that in the
+/// direction in which spans are longer, or to both where they are about as long. False if there is none with fewer than the most.
 fn raise_spans(
     patches: &PatchLayout,
     spans: &mut [usize],
@@ -204,7 +227,7 @@ fn raise_spans(
     options: &LayoutFitOptions,
 ) -> bool {
     let strips = strips(patches.arcs().len(), patches.patches());
-    let mut raised = BTreeSet::new();
+    let mut raised: BTreeMap<usize, usize> = BTreeMap::new();
     for (p, sides) in patches.patches().iter().enumerate() {
         if fit.patch_max[p] <= options.limit(fit) && !fit.folded_patches.contains(&p) {
             continue;
@@ -221,12 +244,15 @@ fn raise_spans(
             if spans[arcs[k]] < options.most_spans
                 && (of_span[k] * ABOUT_AS_LONG >= other || spans[arcs[1 - k]] >= options.most_spans)
             {
-                raised.insert(strips[arcs[k]]);
+                let is_far = spans[arcs[k]] > 1 && fit.patch_max[p] > FAR * options.limit(fit);
+                let more = raised.entry(strips[arcs[k]]).or_default();
+                *more = (*more).max(if is_far { 2 } else { 1 });
             }
         }
     }
     for (arc, spans) in spans.iter_mut().enumerate() {
-        *spans += usize::from(raised.contains(&strips[arc]));
+        let more = raised.get(&strips[arc]).copied().unwrap_or(0);
+        *spans = (*spans + more).min(options.most_spans.max(*spans));
     }
     !raised.is_empty()
 }
