@@ -104,6 +104,7 @@ pub mod quality;
 pub mod refine;
 pub mod repaired_input;
 pub mod report;
+pub mod scene;
 #[cfg(feature = "quads")]
 pub mod seamless;
 #[cfg(feature = "quads")]

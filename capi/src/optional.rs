@@ -10,11 +10,14 @@ use ricci::spline::QuadSpline;
 use std::path::Path;
 
 #[cfg(not(feature = "gltf"))]
-pub use crate::left_out::WrapLeftOut as Wrap;
+pub use crate::left_out::{
+    SceneLeftOut as SceneFile, SceneOptionsLeftOut as SceneOptions, SceneReportLeftOut as SceneReport,
+    WrapLeftOut as Wrap,
+};
 #[cfg(all(feature = "splines", not(feature = "step")))]
 pub use crate::left_out::{StepLeftOut as StepOptions, UnitLeftOut as LengthUnit};
 #[cfg(feature = "gltf")]
-pub use ricci::mesh::io::Wrap;
+pub use ricci::mesh::io::{SceneFile, SceneOptions, SceneReport, Wrap};
 #[cfg(feature = "step")]
 pub use ricci::spline::{LengthUnit, StepOptions};
 

@@ -3,13 +3,14 @@
 use crate::arrays::{check_buffer, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
+use crate::failure::Outcome;
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::soup::ricci_soup;
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::mesh::io::Soup;
-use ricci::texture::{SeamSplitModel, TextureAtlas, TextureOptions, texture_atlas};
+use ricci::texture::{SeamSplitModel, TextureAtlas, TextureOptions, texture_atlas, texture_atlas_of_parts};
 
 choices!(enum FaceList, LISTS = "which", [
     RICCI_TEXTURE_PLACELESS => Placeless,
@@ -89,6 +90,36 @@ impl ricci_texture_options {
     }
 }
 
+impl ricci_texture_atlas {
+    /// The atlas of a model, of several parts if they are given for each vertex.
+    pub(crate) fn new(
+        soup: &Soup,
+        parts: Option<&[u32]>,
+        given: ricci_texture_options,
+        control: *const ricci_control,
+    ) -> Outcome<ricci_texture_atlas> {
+        let (threads, control) = (control::threads(control), control::of(control)?);
+        let mut options = given.read();
+        options.threads = or(options.threads, threads);
+        let n = soup.positions.len().max(soup.faces.len().div_ceil(2));
+        let _reserve = memory::work(n, memory::UNIFORM)?;
+        let atlas = match parts {
+            Some(parts) => texture_atlas_of_parts(soup, parts, &options, &control)?,
+            None => texture_atlas(soup, &options, &control)?,
+        };
+        log::info!("texture atlas: {} charts, {:.3} of the page filled", atlas.charts, atlas.quality.fill);
+        let split = atlas.split(&soup.faces);
+        let mut model = soup.clone();
+        model.attributes.uv = Some(atlas.corner_uv.clone());
+        Ok(ricci_texture_atlas { atlas, model, split, page: options.page })
+    }
+
+    /// The coordinates of the corners of the model's faces.
+    pub(crate) fn corner_uv(&self) -> &[[[f64; 2]; 3]] {
+        &self.atlas.corner_uv
+    }
+}
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_texture_atlas_new(
     soup: *const ricci_soup,
@@ -97,18 +128,8 @@ pub unsafe extern "C" fn ricci_texture_atlas_new(
     atlas: *mut *mut ricci_texture_atlas,
 ) -> ricci_status {
     guard::make(atlas, || {
-        let (given, soup) = (structs::read(options)?, &shared(soup)?.soup);
-        let (threads, control) = (control::threads(control), control::of(control)?);
-        let mut options = given.read();
-        options.threads = or(options.threads, threads);
-        let n = soup.positions.len().max(soup.faces.len().div_ceil(2));
-        let _reserve = memory::work(n, memory::UNIFORM)?;
-        let atlas = texture_atlas(soup, &options, &control)?;
-        log::info!("texture atlas: {} charts, {:.3} of the page filled", atlas.charts, atlas.quality.fill);
-        let split = atlas.split(&soup.faces);
-        let mut model = soup.clone();
-        model.attributes.uv = Some(atlas.corner_uv.clone());
-        Ok(ricci_texture_atlas { atlas, model, split, page: options.page })
+        let given = structs::read(options)?;
+        ricci_texture_atlas::new(&shared(soup)?.soup, None, given, control)
     })
 }
 

@@ -33,6 +33,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("refine", 10),
     ("shapes", 10),
     ("texture", 10),
+    ("scene", 10),
 ];
 
 fn root() -> PathBuf {

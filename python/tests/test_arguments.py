@@ -67,6 +67,7 @@ TAKES = {
     "structure": (ricci.structure, "mesh"),
     "structures": (ricci.structures, "mesh"),
     "texture_atlas": (ricci.texture_atlas, "mesh soup"),
+    "read_scene": (ricci.SceneFile.read, ""),
     "to_trimesh": (ricci.to_trimesh, "mesh layout"),
     "to_meshio": (ricci.to_meshio, "mesh layout"),
     "to_pyvista": (ricci.to_pyvista, "mesh layout"),

@@ -127,7 +127,7 @@ def test_every_kind_is_kept_or_says_why_not():
     assert kept == {kind for kind in _KINDS.values() if issubclass(kind, Kept)}
     rest = {kind.__name__ for kind in _KINDS.values()} - {kind.__name__ for kind in kept}
     # A list has its own pickle, a solver changes; the others are cheap to make again from what is kept.
-    assert rest == {"Soup", "Solver", "RepairedInput", "Deck", "Dirichlet", "Homotopy", "Domain", "Bicubic", "TextureAtlas"}
+    assert rest == {"Soup", "Solver", "RepairedInput", "Deck", "Dirichlet", "Homotopy", "Domain", "Bicubic", "SceneFile", "TextureAtlas"}
 
 
 def test_results_go_on_as_before():

@@ -17,6 +17,7 @@ from ricci import (
     metrics,
     moduli,
     quad_splines,
+    scenes,
     shapes,
     sheets,
     soup,
@@ -244,6 +245,7 @@ CASES = [
         options("texture_options", {"stretch": 1.5, "fill": 0, "page": 64, "margin": 0, "threads": 2}, texture_atlases._TEXTURE),
         {"stretch": 1.5, "fill": -1, "page": 64, "margin": -1, "threads": 2},
     ),
+    (options("scene_options", {"texcoord": 0, "tangents": True}, scenes._SCENE), {"texcoord": -1, "tangents": 1}),
     (
         options("quad_spline_options", {"tolerance": 0.5, "bending": 0, "threads": 2, "most_spans": 4}, quad_splines._QUAD_SPLINE),
         {"tolerance": 0.5, "bending": -1, "threads": 2, "most_spans": 4},

@@ -15,7 +15,7 @@ from ricci._pictures import Scene, drawn, png
 
 
 @pytest.fixture(scope="module")
-def objects(genus2, disk, pants):
+def objects(genus2, disk, pants, tmp_path_factory):
     """One object of every kind, by the name of its class."""
     flat = ricci.flow(genus2)
     laid = ricci.layout(flat)
@@ -49,12 +49,18 @@ def objects(genus2, disk, pants):
         ricci.bicubic(spline, tolerance=0.01),
         ricci.quad_spline(turning),
         ricci.texture_atlas(disk, page=64),
+        scene_of(disk, tmp_path_factory.mktemp("scene") / "disk.glb"),
     ]
     return {type(value).__name__: value for value in found}
 
 
+def scene_of(mesh, path):
+    mesh.write(path)
+    return ricci.SceneFile.read(path)
+
+
 # These have no geometry of their own to be drawn, or it is not handed out.
-WITHOUT = {"Bicubic", "Deck", "Domain", "Homotopy", "Solver"}
+WITHOUT = {"Bicubic", "Deck", "Domain", "Homotopy", "SceneFile", "Solver"}
 KINDS = sorted({kind.__name__ for kind in _KINDS.values() if not kind.__name__.startswith("_")})
 
 

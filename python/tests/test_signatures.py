@@ -23,6 +23,7 @@ from ricci import (
     moduli,
     quad_meshes,
     quad_splines,
+    scenes,
     seams,
     shapes,
     soup,
@@ -65,6 +66,7 @@ STRUCTS = {
     "QuadSplineOptions": ("quad_spline_options", set(), set()),
     "QuadsOptions": ("quads_options", {"sizing"}, {"coarse", "at_most"}),
     "RepairOptions": ("repair_options", set(), set()),
+    "SceneOptions": ("scene_options", set(), set()),
     "SeamlessOptions": ("seamless_options", {"vertices", "valences", "stroke_vertices"}, set()),
     "SeamlessFlatOptions": (
         "flatten_options",
@@ -97,6 +99,7 @@ WRITERS = {
     "QuadSplineOptions": quad_splines._QUAD_SPLINE,
     "QuadsOptions": quad_meshes._QUADS,
     "RepairOptions": soup._REPAIR,
+    "SceneOptions": scenes._SCENE,
     "SeamlessOptions": seams._SEAMLESS,
     "StepOptions": bicubics._STEP,
     "StructureOptions": atlases._STRUCTURE,

@@ -34,6 +34,7 @@ pub mod repair;
 pub mod rims;
 pub mod shapes;
 pub mod sheets;
+pub mod tangents;
 mod thin;
 pub(crate) mod union_find;
 mod weld;

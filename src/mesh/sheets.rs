@@ -21,6 +21,7 @@ use super::io::Soup;
 use super::union_find::UnionFind;
 use super::weld::coincident;
 use crate::geometry::vector::cross;
+use std::collections::HashMap;
 
 /// A connected piece of a triangle list that is a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,9 +52,24 @@ type Partners = Vec<u32>;
 
 /// Cuts a triangle list into sheets. Vertices in exactly the same place count as one. O(F log F).
 pub fn sheets(soup: &Soup) -> SheetList {
+    joined_sheets(soup, &coincident(&soup.positions, 0.0))
+}
+
+/// [`sheets`] for a list of several parts: vertices in the same place count as one where they have the same part, which is given for each
+/// vertex; those behind the end of `parts` are in part 0.
+pub fn sheets_of_parts(soup: &Soup, parts: &[u32]) -> SheetList {
+    let mut known: HashMap<(u32, u32), u32> = HashMap::new();
+    let part = |v: u32| parts.get(v as usize).copied().unwrap_or(0);
+    let of_place = coincident(&soup.positions, 0.0);
+    let first: Vec<u32> =
+        (0u32..).zip(of_place).map(|(v, place)| *known.entry((place, part(v))).or_insert(v)).collect();
+    joined_sheets(soup, &first)
+}
+
+/// The sheets of a list of whose vertices each counts as the one that `first` names.
+fn joined_sheets(soup: &Soup, first: &[u32]) -> SheetList {
     let is_finite =
         |v: &u32| soup.positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
-    let first = coincident(&soup.positions, 0.0);
     // A face without a place names one vertex three times, so that it has no sides.
     let place = |f: &[u32; 3]| match f.iter().all(is_finite) {
         true => f.map(|v| first[v as usize]),

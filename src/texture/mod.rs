@@ -27,6 +27,7 @@
 //! # }
 //! ```
 
+mod atlas_model;
 mod cross_cut;
 mod flat_chart;
 mod opening;
@@ -41,4 +42,4 @@ mod texture_atlas;
 pub use options::TextureOptions;
 pub use quality::TextureQuality;
 pub use seam_split::SeamSplitModel;
-pub use texture_atlas::{TextureAtlas, texture_atlas};
+pub use texture_atlas::{TextureAtlas, texture_atlas, texture_atlas_of_parts};

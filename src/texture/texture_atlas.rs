@@ -1,5 +1,6 @@
 //! The texture atlas of a model, from its triangles to the page.
 
+use super::atlas_model::AtlasModel;
 use super::cross_cut::waist;
 use super::flat_chart::{ChartFaces, FlatChart};
 use super::opening::{alone, laid_flat};
@@ -14,7 +15,7 @@ use crate::geometry::predicates::orientation;
 use crate::geometry::triangle_overlap::{TriangleCorners, overlapping};
 use crate::geometry::vector::distance;
 use crate::mesh::io::Soup;
-use crate::mesh::sheets::{Sheet, SheetList, sheets};
+use crate::mesh::sheets::{Sheet, SheetList};
 use crate::mesh::{Mesh, Point};
 use crate::parallel;
 use std::cmp::Ordering;
@@ -85,13 +86,36 @@ impl TextureAtlas {
 /// # Errors
 /// [`Error::Argument`] for an option outside its range; [`Error::Layout`] for a model of which no face has an area; [`Error::Cancelled`].
 pub fn texture_atlas(soup: &Soup, options: &TextureOptions, control: &Control) -> Result<TextureAtlas> {
+    of_model(soup, None, options, control)
+}
+
+/// [`texture_atlas`] of a model of several parts on one page, such as the meshes of a scene: vertices are of the same part where `parts`, with an
+/// entry for each vertex, has the same number. No chart joins two parts, also where they touch, and texels have one size on all.
+///
+/// # Errors
+/// As [`texture_atlas`], and [`Error::Size`] for another number of entries.
+pub fn texture_atlas_of_parts(
+    soup: &Soup,
+    parts: &[u32],
+    options: &TextureOptions,
+    control: &Control,
+) -> Result<TextureAtlas> {
+    of_model(soup, Some(parts), options, control)
+}
+
+fn of_model(
+    soup: &Soup,
+    parts: Option<&[u32]>,
+    options: &TextureOptions,
+    control: &Control,
+) -> Result<TextureAtlas> {
     options.check()?;
     let (moderate, factor) = at_moderate_size(soup);
-    let soup = moderate.as_ref().unwrap_or(soup);
+    let model = AtlasModel::new(moderate.as_ref().unwrap_or(soup), parts)?;
     parallel::within(options.threads, || {
         control.step(Stage::Build, 0.0)?;
-        let found = sheets(soup);
-        let mut charts = all_charts(soup, &found.sheets, options, control)?;
+        let found = model.sheets();
+        let mut charts = all_charts(model.soup, &found.sheets, options, control)?;
         if charts.is_empty() {
             return Err(Error::Layout(
                 "no face of the model has a place: there is nothing to lay out".into(),
@@ -99,19 +123,19 @@ pub fn texture_atlas(soup: &Soup, options: &TextureOptions, control: &Control) -
         }
         control.step(Stage::Layout, 0.6)?;
         divide_to_fill(&mut charts, options, control)?;
-        let mut atlas = packed(soup, &found, &mut charts, options, control)?;
+        let mut atlas = packed(model, &found, &mut charts, options, control)?;
         for _ in 0..MENDINGS {
             if atlas.folded.is_empty() && atlas.overlapping.is_empty() {
                 break;
             }
             take_out(&mut charts, &atlas);
-            match packed(soup, &found, &mut charts, options, control) {
+            match packed(model, &found, &mut charts, options, control) {
                 // A small page has no room for so many charts: these faces get no place.
                 Err(Error::Layout(_)) => break,
                 mended => atlas = mended?,
             }
         }
-        let mut atlas = without_bad(atlas, soup, options.page, control)?;
+        let mut atlas = without_bad(atlas, model, options.page, control)?;
         atlas.quality.texel_density *= factor;
         control.finish();
         Ok(atlas)
@@ -132,7 +156,7 @@ fn at_moderate_size(soup: &Soup) -> (Option<Soup>, f64) {
 
 /// The charts, sorted, on their page.
 fn packed(
-    soup: &Soup,
+    model: AtlasModel<'_>,
     found: &SheetList,
     charts: &mut [FlatChart],
     options: &TextureOptions,
@@ -144,17 +168,22 @@ fn packed(
     let page = PackedPage { texels, margin, is_thorough: true };
     let packing = page.pack(charts, 0.0, control)?.ok_or_else(no_room)?;
     control.step(Stage::Layout, 0.9)?;
-    let mut atlas = on_page(soup, charts, &packing, texels as f64);
+    let mut atlas = on_page(model.soup, charts, &packing, texels as f64);
     // Charts have the corners of a turned face in the other order.
-    let turned: Vec<u32> = (0..soup.faces.len() as u32).filter(|f| found.turned[*f as usize]).collect();
+    let turned: Vec<u32> = (0..model.soup.faces.len() as u32).filter(|f| found.turned[*f as usize]).collect();
     turned.iter().for_each(|f| atlas.corner_uv[*f as usize].swap(1, 2));
     let placeless = found.placeless.clone();
     let (opened_edges, sheets) = (found.opened_edges, found.sheets.len());
-    TextureAtlas { turned, placeless, opened_edges, sheets, ..atlas }.checked(soup, options.page, control)
+    TextureAtlas { turned, placeless, opened_edges, sheets, ..atlas }.checked(model, options.page, control)
 }
 
 /// The atlas, in which faces that are folded or overlap others have lost their places.
-fn without_bad(mut atlas: TextureAtlas, soup: &Soup, page: u32, control: &Control) -> Result<TextureAtlas> {
+fn without_bad(
+    mut atlas: TextureAtlas,
+    model: AtlasModel<'_>,
+    page: u32,
+    control: &Control,
+) -> Result<TextureAtlas> {
     if atlas.folded.is_empty() && atlas.overlapping.is_empty() {
         return Ok(atlas);
     }
@@ -172,7 +201,7 @@ fn without_bad(mut atlas: TextureAtlas, soup: &Soup, page: u32, control: &Contro
         *chart = used.partition_point(|k| *k < *chart) as u32;
     }
     atlas.charts = used.len();
-    atlas.checked(soup, page, control)
+    atlas.checked(model, page, control)
 }
 
 /// True for a face whose height on the page is so small that another rounding could fold it.
@@ -340,7 +369,7 @@ fn on_page(soup: &Soup, charts: &[FlatChart], packing: &Packing, texels: f64) ->
 
 impl TextureAtlas {
     /// The atlas with its checks and figures.
-    fn checked(mut self, soup: &Soup, page: u32, control: &Control) -> Result<TextureAtlas> {
+    fn checked(mut self, model: AtlasModel<'_>, page: u32, control: &Control) -> Result<TextureAtlas> {
         let is_placed = |f: &u32| self.chart[*f as usize] != TextureAtlas::NO_CHART;
         let is_folded = |f: &u32| {
             let [a, b, c] = self.corner_uv[*f as usize];
@@ -352,22 +381,22 @@ impl TextureAtlas {
         self.overlapping =
             overlapping(&self.corner_uv, &control.still())?.into_iter().map(|f| f as u32).collect();
         let map = |f: u32| {
-            let corners = soup.faces[f as usize].map(|v| soup.positions[v as usize]);
+            let corners = model.soup.faces[f as usize].map(|v| model.point(v));
             let flat = self.corner_uv[f as usize];
             face_map(corners, flat).filter(|_| doubled_area(flat) != 0.0)
         };
         let placed = (0..self.chart.len() as u32).filter(is_placed);
         let maps: Vec<FaceMap> = placed.filter_map(map).collect();
-        self.quality = TextureQuality::new(&maps, self.seam_length(soup), page);
+        self.quality = TextureQuality::new(&maps, self.seam_length(model), page);
         Ok(self)
     }
 
     /// The length of the seams: of each edge once for each pair of faces that have other coordinates there than all pairs before; of n faces
     /// (n + 1)/2 can be continued by none.
-    fn seam_length(&self, soup: &Soup) -> f64 {
-        let key = |v: u32| soup.positions[v as usize].map(f64::to_bits);
-        let mut edges: HashMap<[[u64; 3]; 2], SeamEdge> = HashMap::new();
-        for (f, corners) in soup.faces.iter().enumerate() {
+    fn seam_length(&self, model: AtlasModel<'_>) -> f64 {
+        let key = |v: u32| model.place(v);
+        let mut edges: HashMap<[([u64; 3], u32); 2], SeamEdge> = HashMap::new();
+        for (f, corners) in model.soup.faces.iter().enumerate() {
             if self.chart[f] == TextureAtlas::NO_CHART {
                 continue;
             }
@@ -375,7 +404,7 @@ impl TextureAtlas {
                 let ends = [k, (k + 1) % 3].map(|k| (corners[k], self.corner_uv[f][k]));
                 let ends = if key(ends[0].0) <= key(ends[1].0) { ends } else { [ends[1], ends[0]] };
                 let edge = edges.entry(ends.map(|end| key(end.0))).or_insert_with(|| {
-                    let [a, b] = ends.map(|end| soup.positions[end.0 as usize]);
+                    let [a, b] = ends.map(|end| model.point(end.0));
                     SeamEdge { length: distance(a, b), faces: 0, places: Vec::new() }
                 });
                 edge.faces += 1;

@@ -55,6 +55,10 @@ mod quads;
 mod range;
 mod refine;
 mod repair;
+#[cfg(feature = "gltf")]
+mod scene;
+#[cfg(feature = "gltf")]
+mod scene_build;
 #[cfg(feature = "quads")]
 mod seamless;
 #[cfg(feature = "quads")]

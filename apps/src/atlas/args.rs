@@ -3,9 +3,10 @@
 use crate::options::{Common, FileName, number};
 use crate::picture::PictureArgs;
 use clap::Args;
+use ricci::mesh::io::SceneOptions;
 use ricci::texture::TextureOptions;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub const HELP: &str = "\
 Example: a model of any kind with a texture atlas, and a picture of both
@@ -20,6 +21,11 @@ of 2^-24: .obj and .glb hold the same ones.
 --stretch S bounds how much all but a hundredth of the area is stretched or compressed along any direction; seams are added until it holds.
 --fill divides charts along short paths while the page is filled less than that; 0 leaves seams shortest. Charts keep --margin texels apart on
 a page of --page texels.
+
+A scene stays a scene: of a .glb or .gltf file, -o OUT.glb has the nodes, materials, cameras, animations, names and extras as they were, and one
+atlas for all its meshes, with texels of one size in the scene. Vertices are repeated along seams with all their attributes and morph targets.
+A mesh that several nodes show has one set of charts, in the size of the largest. Textures keep their places: the atlas is TEXCOORD_0 if no texture
+uses that, else the next free set; --texcoord N asks for another one. --tangents writes tangents of the atlas for meshes with normals.
 
 Files
     -o OUT.obj | OUT.glb       the model with its texture coordinates
@@ -45,6 +51,12 @@ pub struct TextureArgs {
     /// The share of the page below which charts are divided to fill it
     #[arg(long, value_name = "SHARE", default_value_t = TextureOptions::default().fill, value_parser = share)]
     pub fill: f64,
+    /// The set of texture coordinates of a scene that the atlas becomes, TEXCOORD_N
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=7))]
+    pub texcoord: Option<u32>,
+    /// Write tangents of the atlas into a scene, where there are normals
+    #[arg(long)]
+    pub tangents: bool,
     /// Write the model's vertex and the chart of each texture coordinate
     #[arg(long, value_name = "X.csv")]
     pub xref: Option<FileName>,
@@ -57,6 +69,20 @@ pub struct TextureArgs {
 }
 
 impl TextureArgs {
+    /// True if a scene is read and stays one.
+    pub fn is_scene(&self) -> bool {
+        let is_gltf = |path: &Path| {
+            let name = path.to_string_lossy().to_lowercase();
+            let name = name.strip_suffix(".gz").unwrap_or(&name);
+            name.ends_with(".glb") || name.ends_with(".gltf")
+        };
+        is_gltf(&self.mesh) && is_gltf(&self.out)
+    }
+
+    pub fn scene_options(&self) -> SceneOptions {
+        SceneOptions { texcoord: self.texcoord, tangents: self.tangents }
+    }
+
     pub fn options(&self) -> TextureOptions {
         TextureOptions {
             stretch: self.stretch,

@@ -3,6 +3,7 @@
 use super::args::TextureArgs;
 use super::files;
 use super::outcome::TextureOutcome;
+use super::scene::KeptScene;
 use crate::carry::stays_behind;
 use crate::failure::Failure;
 use crate::input::{out_of_range, read_triangles};
@@ -10,8 +11,8 @@ use crate::output::{check_extension, check_outputs, format_of};
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use ricci::control::Stage;
-use ricci::mesh::io;
-use ricci::texture::texture_atlas;
+use ricci::mesh::io::{self, SceneFile};
+use ricci::texture::{texture_atlas, texture_atlas_of_parts};
 
 impl Job for TextureArgs {
     type Outcome = TextureOutcome;
@@ -25,31 +26,60 @@ impl Job for TextureArgs {
         let picture = self.picture.picture.as_deref();
         check_extension("--picture", picture, &["png", "svg"])?;
         let files = [Some(&*self.out), self.xref.as_deref(), picture, self.common.report.as_deref()];
-        check_outputs(&[Some(&self.mesh)], &files)
+        check_outputs(&[Some(&self.mesh)], &files)?;
+        if !self.is_scene() && (self.texcoord.is_some() || self.tangents) {
+            let message = "--texcoord and --tangents: for a scene, from .glb or .gltf to .glb";
+            return Err(Failure::Usage(message.into()));
+        }
+        Ok(())
     }
 
     fn compute(&self, run: &mut CommandRun<'_>) -> Result<TextureOutcome, Failure> {
         run.control.step(Stage::Read, 0.0)?;
-        let mut soup = timed(&mut run.seconds.read, || read_triangles(&self.mesh))?;
+        let scene = match self.is_scene() {
+            true => Some(timed(&mut run.seconds.read, || SceneFile::open(&self.mesh))?),
+            false => None,
+        };
+        let mut soup = match &scene {
+            Some(scene) => scene.soup().clone(),
+            None => timed(&mut run.seconds.read, || read_triangles(&self.mesh))?,
+        };
         if let Some(why) = out_of_range(&soup) {
             return Err(Failure::Input(format!("{}: {why}", self.mesh.display())));
         }
         let had_coordinates = soup.attributes.uv.take().is_some();
-        let make = || texture_atlas(&soup, &self.options(), run.control);
+        let make = || match &scene {
+            Some(scene) => texture_atlas_of_parts(&soup, scene.meshes(), &self.options(), run.control),
+            None => texture_atlas(&soup, &self.options(), run.control),
+        };
         let atlas = timed(&mut run.seconds.layout, make).map_err(|error| match error {
             // It is the model that has nothing to lay out.
             ricci::Error::Layout(why) => Failure::Input(format!("{}: {why}", self.mesh.display())),
             error => error.into(),
         })?;
         soup.attributes.uv = Some(atlas.corner_uv.clone());
-        Ok(TextureOutcome { path: self.mesh.clone(), soup, atlas, stretch: self.stretch, had_coordinates })
+        let scene = scene.map(KeptScene::new);
+        Ok(TextureOutcome {
+            path: self.mesh.clone(),
+            soup,
+            atlas,
+            stretch: self.stretch,
+            had_coordinates,
+            scene,
+        })
     }
 
     fn write(&self, outcome: &TextureOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
         let (format, soup) = (format_of(&self.out)?, &outcome.soup);
-        let left_out = run.outputs.add_named(&self.out, |path| io::write_as(path, format, soup))?;
-        run.outputs.leave_out(left_out);
-        run.outputs.leave_out(stays_behind(soup.attributes.labels.as_ref(), &self.mesh, &self.out));
+        if let Some(scene) = &outcome.scene {
+            let (uv, options) = (&outcome.atlas.corner_uv, self.scene_options());
+            let report = run.outputs.add_named(&self.out, |path| scene.file.write(path, uv, &options))?;
+            scene.keep(report);
+        } else {
+            let left_out = run.outputs.add_named(&self.out, |path| io::write_as(path, format, soup))?;
+            run.outputs.leave_out(left_out);
+            run.outputs.leave_out(stays_behind(soup.attributes.labels.as_ref(), &self.mesh, &self.out));
+        }
         run.file("xref", self.xref.as_deref(), |outputs, path| {
             outputs.add(path, |out| files::write_origins(out, outcome))
         })?;

@@ -4,5 +4,6 @@ mod args;
 mod command;
 mod files;
 mod outcome;
+mod scene;
 
 pub use args::{HELP, TextureArgs};

@@ -1,5 +1,6 @@
 //! The checks, figures and summary of `ricci atlas`.
 
+use super::scene::KeptScene;
 use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say::{count, finish};
@@ -18,6 +19,8 @@ pub struct TextureOutcome {
     pub stretch: f64,
     /// True if the model had texture coordinates, which the atlas replaces.
     pub had_coordinates: bool,
+    /// The scene that the model is, if it stays one.
+    pub scene: Option<KeptScene>,
 }
 
 impl JobOutcome for TextureOutcome {
@@ -41,7 +44,12 @@ impl JobOutcome for TextureOutcome {
 
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
         let (atlas, quality) = (&self.atlas, &self.atlas.quality);
-        Figures::default()
+        let figures = Figures::default();
+        let figures = match &self.scene {
+            Some(scene) => scene.figures(figures),
+            None => figures,
+        };
+        figures
             .with("charts", atlas.charts)
             .with("sheets", atlas.sheets)
             .with("opened_edges", atlas.opened_edges)
@@ -82,6 +90,9 @@ impl JobOutcome for TextureOutcome {
                 "no place {faces} with two corners in one place or too thin for the page; the first is {}\n",
                 atlas.placeless[0]
             );
+        }
+        if let Some(scene) = &self.scene {
+            text += &scene.summary();
         }
         if self.had_coordinates {
             text += "replaced the texture coordinates of the model\n";

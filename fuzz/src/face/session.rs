@@ -33,6 +33,7 @@ const LONG: [&str; 19] = [
     "ricci_quad_spline_tessellate",
     "ricci_spline_closest",
     "ricci_texture_atlas_new",
+    "ricci_scene_texture_atlas",
     "ricci_hyperelliptic_periods",
 ];
 /// Faces of a mesh that is kept for later calls.

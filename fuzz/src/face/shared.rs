@@ -23,9 +23,10 @@ use ricci_c::quad_layout::ricci_quad_layout_new;
 use ricci_c::quad_spline::{ricci_quad_spline_fit, ricci_quad_spline_options};
 use ricci_c::quads::{ricci_quads_new, ricci_quads_options};
 use ricci_c::repaired_input::ricci_repaired_input_new;
+use ricci_c::scene::{ricci_scene_read, ricci_scene_texture_atlas};
 use ricci_c::seamless::ricci_seamless_new;
 use ricci_c::shapes::{ricci_make, ricci_shape};
-use ricci_c::soup::{ricci_soup_from_arrays, ricci_soup_repair};
+use ricci_c::soup::{ricci_soup_from_arrays, ricci_soup_repair, ricci_soup_write};
 use ricci_c::spline::{ricci_spline_domain, ricci_spline_new, ricci_spline_spec};
 use ricci_c::structure::ricci_structure_new;
 use ricci_c::texture_atlas::{ricci_texture_atlas_new, ricci_texture_options};
@@ -163,6 +164,14 @@ impl Shelf {
         let options = ricci_texture_options { page: 64, threads: 1, ..zeroed() };
         let atlas = made(|p| unsafe { ricci_texture_atlas_new(soup, &options, null(), p) });
         self.put("ricci_texture_atlas", atlas);
+        let folder = tempfile::tempdir().expect("a folder for a scene");
+        let path = folder.path().join("scene.glb");
+        let path = std::ffi::CString::new(path.to_string_lossy().as_ref()).expect("a path has no zero");
+        let plain = made(|p| unsafe { ricci_soup_from_arrays(positions.as_ptr(), 0, 4, faces.as_ptr(), 3, p) });
+        assert_eq!(unsafe { ricci_soup_write(plain, path.as_ptr()) }, 0);
+        let scene = made(|p| unsafe { ricci_scene_read(path.as_ptr(), p) });
+        self.put("ricci_texture_atlas", made(|p| unsafe { ricci_scene_texture_atlas(scene, &options, null(), p) }));
+        self.put("ricci_scene", scene);
         let seed = |name: &str| {
             let path = format!("{}/seeds/gifti/{name}", env!("CARGO_MANIFEST_DIR"));
             std::ffi::CString::new(path).expect("a path has no zero")

@@ -101,6 +101,7 @@ from ricci.packed_charts import Charts, charts
 from ricci.pages import Page, show
 from ricci.quad_meshes import QuadLayout, Quads, QuadsOptions, quad_layout, quads
 from ricci.quad_splines import QuadSpline, QuadSplineOptions, fit_few_patches, quad_spline
+from ricci.scenes import SceneFile, SceneOptions
 from ricci.seams import Seamless, SeamlessOptions, cross_field, seamless
 from ricci.shapes import ChangeOptions, ShapeOptions, change, hyperelliptic_periods, make, make_loops
 from ricci.sheets import Darted, DartOptions, Strains, flatten_darts, strains
@@ -191,6 +192,8 @@ __all__ = [
     "RepairedInput",
     "Report",
     "RicciError",
+    "SceneFile",
+    "SceneOptions",
     "Seamless",
     "SeamlessFlatMap",
     "SeamlessFlatOptions",

@@ -19,11 +19,12 @@ from ricci.adapters import from_arrays_of
 from ricci.control import Progress
 from ricci.figures import TextureAtlasSummary
 from ricci.mesh import Mesh
+from ricci.scenes import SceneFile
 from ricci.soup import Soup
 
 __all__ = ["SplitModel", "TextureAtlas", "TextureOptions", "texture_atlas"]
 
-# A Soup, a Mesh, a file's name, a pair of arrays (V, F), or a mesh of trimesh, meshio, PyVista or nibabel.
+# A Soup, a Mesh, a SceneFile, a file's name, a pair of arrays (V, F), or a mesh of trimesh, meshio, PyVista or nibabel.
 ModelLike: TypeAlias = Any
 
 
@@ -187,7 +188,7 @@ def texture_atlas(
     ----------
     V : ModelLike
         n x 3 positions with `F`; without, a `Soup`, whose other attributes `TextureAtlas.write` keeps, a `Mesh`, a file's name, a pair
-        (V, F), or another library's mesh.
+        (V, F), another library's mesh, or a `SceneFile`, which `SceneFile.write` writes with its nodes and materials.
     F : npt.ArrayLike | None
         m x 3 vertex indices; nothing is asked of them.
     progress : Progress
@@ -208,4 +209,6 @@ def texture_atlas(
     ([0, 0, 1], 1)
     """
     given = options("texture_options", picked(locals(), TextureOptions), _TEXTURE)
+    if isinstance(V, SceneFile):
+        return TextureAtlas._made(lib.ricci_scene_texture_atlas, V, given, CONTROL, progress=progress)
     return TextureAtlas._made(lib.ricci_texture_atlas_new, _soup_of(V, F), given, CONTROL, progress=progress)

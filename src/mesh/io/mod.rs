@@ -60,7 +60,7 @@ pub use gifti_values::{GiftiColumn, GiftiColumns, parse_gifti_columns};
 #[cfg(feature = "gifti")]
 pub use gifti_write::{GiftiLabel, gifti_labels, gifti_surface, gifti_values, write_gifti};
 #[cfg(feature = "gltf")]
-pub use gltf::{Texture, Wrap, parse_glb, write_glb};
+pub use gltf::{SceneFile, SceneOptions, SceneReport, Texture, Wrap, parse_glb, write_glb};
 pub use guess::SurfaceFormat;
 pub use kind::NumberType;
 pub use labels::{FaceLabel, FaceLabels, PlainMaterial};

@@ -115,6 +115,18 @@ impl SurfaceFile {
         }
     }
 
+    /// The name, the folder and the bytes of a glTF file; an error for one of another format.
+    #[cfg(feature = "gltf")]
+    pub(super) fn into_gltf(self) -> Result<(String, Option<PathBuf>, Vec<u8>)> {
+        if self.format != SurfaceFormat::Gltf {
+            return Err(Error::UnknownFormat {
+                path: self.name,
+                message: "scenes are read from .glb and .gltf files alone".into(),
+            });
+        }
+        Ok((self.name, self.folder, self.bytes))
+    }
+
     fn parsed(&self) -> Result<Soup> {
         let (bytes, name) = (&self.bytes[..], &self.name[..]);
         match self.format {

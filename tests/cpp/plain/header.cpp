@@ -11,6 +11,7 @@
 #include <ricci/quad_spline.hpp>
 #include <ricci/quads.hpp>
 #include <ricci/repair.hpp>
+#include <ricci/scene.hpp>
 #include <ricci/spline.hpp>
 #include <ricci/structure.hpp>
 #include <ricci/texture.hpp>
@@ -387,6 +388,19 @@ int texture_atlases() {
     }
 }
 
+// A scene of one square stays a scene.
+int scenes() {
+    ricci::mesh::from(positions, faces).write("square.glb");
+    const ricci::scene scene("square.glb");
+    if (scene.summary().n_meshes != 1) return 130;
+    auto page = ricci::init<ricci_texture_options>();
+    page.page = 64;
+    auto options = ricci::init<ricci_scene_options>();
+    options.texcoord = 1;
+    const auto report = scene.write(scene.atlas(page), "square_atlas.glb", options);
+    return report.texcoord == 1 && report.n_vertices == scene.summary().n_vertices ? 0 : 131;
+}
+
 int failures() {
     const ricci::control stopped;
     stopped.set_part(0, 0.5);
@@ -422,7 +436,7 @@ int failures() {
 int main() {
     for (int failed : {whole_job(), archives(), uniformization(), forms_and_maps(), cortices(), brain_files(),
                        gifti_files(), structures(), splines(), quads(), quad_splines(), bicubic_patches(),
-                       texture_atlases(), failures()})
+                       texture_atlases(), scenes(), failures()})
         if (failed) return failed;
     return 0;
 }

@@ -15,7 +15,7 @@ from ricci.figures.four_sided import QuadLayoutSummary, QuadSplineSummary, Quads
 from ricci.figures.matched import FoundLandmarks, MatchingJudgement, MatchingSummary
 from ricci.figures.placed import ChartsSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary, SeamlessSummary
 from ricci.figures.surface import ArchiveSummary, MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
-from ricci.figures.textured import TextureAtlasSummary
+from ricci.figures.textured import SceneReport, SceneSummary, TextureAtlasSummary
 
 __all__ = [
     "ArchiveSummary",
@@ -46,6 +46,8 @@ __all__ = [
     "RefineSummary",
     "RepairedInputSummary",
     "ReportSummary",
+    "SceneReport",
+    "SceneSummary",
     "SeamlessSummary",
     "SoupSummary",
     "SplineSummary",

@@ -73,3 +73,80 @@ class TextureAtlasSummary:
     seam_length: float
     fill: float
     texel_density: float
+
+
+@dataclass(frozen=True)
+class SceneSummary:
+    """Counts of a scene.
+
+    Attributes
+    ----------
+    n_nodes : int
+        nodes.
+    n_meshes : int
+        meshes with triangles.
+    n_primitives : int
+        primitives with triangles: parts of meshes that have one material each.
+    n_materials : int
+        materials.
+    n_vertices : int
+        vertices of all these primitives; those that several primitives of a mesh share count once.
+    n_faces : int
+        triangles.
+    """
+
+    n_nodes: int
+    n_meshes: int
+    n_primitives: int
+    n_materials: int
+    n_vertices: int
+    n_faces: int
+
+
+@dataclass(frozen=True)
+class SceneReport:
+    """What was written of a scene, and what is not as it was.
+
+    Attributes
+    ----------
+    texcoord : int
+        the set of texture coordinates that holds the atlas.
+    n_primitives : int
+        primitives that have it.
+    n_vertices : int
+        their vertices in the file that was read.
+    n_split_vertices : int
+        their vertices in the file that was written.
+    n_replaced : int
+        primitives that had coordinates in this set, which are gone.
+    n_kept_textures : int
+        textures of materials that use other sets, which are as they were.
+    n_misplaced_textures : int
+        textures that use this set, whose pictures no longer fit: 0 unless the set was asked for.
+    n_tangents : int
+        primitives with tangents of the atlas.
+    n_without_tangents : int
+        primitives without, though they were asked for: without normals, or with a normal map on another set.
+    n_dropped_tangents : int
+        primitives whose tangents are gone with the coordinates that they belonged to.
+    n_unrolled : int
+        strips and fans that became lists of triangles.
+    n_shared_meshes : int
+        meshes that several nodes show.
+    n_notes : int
+        pictures in files beside the scene that could not move into the file; the log names them.
+    """
+
+    texcoord: int
+    n_primitives: int
+    n_vertices: int
+    n_split_vertices: int
+    n_replaced: int
+    n_kept_textures: int
+    n_misplaced_textures: int
+    n_tangents: int
+    n_without_tangents: int
+    n_dropped_tangents: int
+    n_unrolled: int
+    n_shared_meshes: int
+    n_notes: int

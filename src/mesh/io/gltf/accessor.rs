@@ -75,12 +75,19 @@ impl Elements<'_> {
     }
 }
 
+/// The bytes of elements one after the other, each filled up to whole words of 4 bytes.
+pub(super) struct PackedElements {
+    pub bytes: Vec<u8>,
+    pub stride: usize,
+}
+
 /// The numbers of one accessor.
 pub(super) struct Accessor<'a> {
     index: u32,
     /// Its use, for errors.
     what: &'static str,
     pub count: usize,
+    kind: NumberType,
     width: usize,
     /// The divisor of numbers that stand for fractions.
     full: Option<f64>,
@@ -140,6 +147,7 @@ impl<'a> GltfFile<'a> {
                 index,
                 what,
                 count,
+                kind,
                 width,
                 // The format has no fractions of more than 16 bits.
                 full: (text.normalized && kind.size() < 4).then(|| kind.full()),
@@ -170,6 +178,24 @@ impl<'a> GltfFile<'a> {
         };
         let values = ElementRun { view: values.buffer_view, offset: values.byte_offset, kind, width, count };
         Ok((self.elements(indices)?, self.elements(values)?))
+    }
+
+    /// The bytes of a buffer view.
+    pub fn view(&self, index: usize) -> Result<&[u8]> {
+        let fail = |why: String| self.place_of("bufferViews", index).error(why);
+        let Some(text) = self.document.buffer_views.get(index) else {
+            return fail(format!("buffer view {index} does not exist"));
+        };
+        let Some(buffer) = self.buffers.get(text.buffer as usize) else {
+            return fail(format!("buffer {} of buffer view {index} does not exist", text.buffer));
+        };
+        let end = text.byte_offset.checked_add(text.byte_length);
+        match end.and_then(|end| buffer.bytes.get(text.byte_offset..end)) {
+            Some(bytes) => Ok(bytes),
+            None => {
+                fail(format!("buffer view {index} ends behind its buffer of {} bytes", buffer.bytes.len()))
+            }
+        }
     }
 
     /// The bytes of a run of elements; the error is a message.
@@ -246,6 +272,31 @@ impl Accessor<'_> {
             }
         }
         Ok(numbers)
+    }
+
+    /// The bytes of all elements as they are, those that are replaced with their values.
+    pub fn packed(&self, budget: &mut Budget, file: &GltfFile<'_>) -> Result<PackedElements> {
+        let size = self.width * self.kind.size();
+        let stride = size.next_multiple_of(4);
+        budget.take(self.count, stride, self.what, file.whole())?;
+        let mut bytes = vec![0; self.count * stride];
+        let mut put = |at: usize, from: &Elements<'_>, i: usize| {
+            bytes[at * stride..][..size].copy_from_slice(&from.bytes[i * from.stride..][..size]);
+        };
+        if let Some(dense) = &self.dense {
+            (0..self.count).for_each(|i| put(i, dense, i));
+        }
+        if let Some((indices, values)) = &self.sparse {
+            for i in 0..values.count {
+                let at = indices.number(i, 0) as usize;
+                if at >= self.count {
+                    let message = format!("{}: element {at} of {} is replaced", self.what, self.count);
+                    return indices.place(i, self.place(file)).error(message);
+                }
+                put(at, values, i);
+            }
+        }
+        Ok(PackedElements { bytes, stride })
     }
 
     /// All elements as vertex numbers below `n`.

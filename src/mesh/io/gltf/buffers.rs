@@ -46,7 +46,7 @@ pub(super) fn files_beside(
 
 /// The bytes of a file with a name relative to a folder. Names that lead out of the folder are refused: a mesh from elsewhere must not
 /// say which files of this machine are read.
-fn read_beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+pub(super) fn read_beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     let Some(folder) = folder else {
         return Err(format!(
             "is in another file, {}, beside the document; give that by name, or export it as a single .glb file",

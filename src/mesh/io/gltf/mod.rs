@@ -4,12 +4,22 @@
 mod accessor;
 mod buffers;
 mod document;
+mod document_walk;
+mod glb_chunks;
+mod kept_document;
 mod locate;
 mod materials;
+mod pictures;
 mod scene;
+mod scene_edit;
+mod scene_file;
+mod scene_model;
+mod scene_split;
 mod seams;
+mod texture_sets;
 mod write;
 
+pub use scene_file::{SceneFile, SceneOptions, SceneReport};
 pub use write::{Texture, Wrap, write_glb};
 
 use super::Soup;
@@ -46,6 +56,16 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
 
 /// [`parse_glb`] for a file in a folder, in which the files of its buffers are.
 pub(super) fn parse_beside(bytes: &[u8], path: &str, folder: Option<&Path>) -> Result<Soup> {
+    with_file(bytes, path, folder, scene::soup)
+}
+
+/// What a function makes of a file: its document, its buffers, and the memory that they may unfold to.
+fn with_file<T>(
+    bytes: &[u8],
+    path: &str,
+    folder: Option<&Path>,
+    read: impl FnOnce(&GltfFile<'_>, Budget) -> Result<T>,
+) -> Result<T> {
     let place = Location::whole(path);
     let bom = b"\xef\xbb\xbf";
     let (json, binary) = if bytes.trim_ascii_start().starts_with(b"{") || bytes.starts_with(bom) {
@@ -81,7 +101,7 @@ pub(super) fn parse_beside(bytes: &[u8], path: &str, folder: Option<&Path>) -> R
         }
     }
     let more = beside.iter().map(|FileBeside { bytes, .. }| bytes.len()).sum::<usize>();
-    scene::soup(&file, Budget::of_size(bytes.len().saturating_add(more)))
+    read(&file, Budget::of_size(bytes.len().saturating_add(more)))
 }
 
 /// The document of a file, whose text begins at byte `start`.

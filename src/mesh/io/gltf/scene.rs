@@ -13,9 +13,9 @@ use crate::mesh::io::soup::{Attributes, NO_NORMAL, NO_TEXCOORD, Soup, WHITE};
 use crate::mesh::weld::place_key;
 
 /// Modes of a primitive with faces.
-const TRIANGLES: u32 = 4;
+pub(super) const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
-const FAN: u32 = 6;
+pub(super) const FAN: u32 = 6;
 /// Bytes that each primitive takes off the budget, even an empty one: nodes may use one mesh often, and each use takes time.
 const PRIMITIVE: usize = 64;
 
@@ -160,7 +160,7 @@ impl CollectedMeshes<'_> {
             }
         };
         let file = self.file;
-        let mut faces = self.faces(primitive, n)?;
+        let mut faces = faces(primitive, n, &mut self.budget, file)?;
         if map.of_normals().1 {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
         }
@@ -246,34 +246,6 @@ impl CollectedMeshes<'_> {
         accessor.numbers(read.fill, &mut self.budget, self.file)
     }
 
-    /// The faces of a primitive with `n` vertices, numbered from 0.
-    fn faces(&mut self, primitive: &Primitive, n: usize) -> Result<Vec<[u32; 3]>> {
-        let (file, place, budget) = (self.file, self.file.whole(), &mut self.budget);
-        let mode = primitive.mode.unwrap_or(TRIANGLES);
-        if !(TRIANGLES..=FAN).contains(&mode) {
-            return Ok(Vec::new());
-        }
-        let at = match primitive.indices {
-            Some(index) => {
-                file.accessor(index, "indices", &[ElementShape::Scalar])?.indices(n, budget, file)?
-            }
-            None => {
-                budget.take(n, size_of::<u32>(), "indices", place)?;
-                (0..n as u32).collect()
-            }
-        };
-        let count = if mode == TRIANGLES { at.len() / 3 } else { at.len().saturating_sub(2) };
-        budget.take(count, 2 * size_of::<[u32; 3]>(), "faces", place)?;
-        let face = |f: usize| match mode {
-            TRIANGLES => [at[3 * f], at[3 * f + 1], at[3 * f + 2]],
-            STRIP if f.is_multiple_of(2) => [at[f], at[f + 1], at[f + 2]],
-            STRIP => [at[f + 1], at[f], at[f + 2]],
-            _ => [at[0], at[f + 1], at[f + 2]],
-        };
-        // A repeated vertex joins strips together.
-        Ok((0..count).map(face).filter(|face| mode != STRIP || distinct(face)).collect())
-    }
-
     /// Fills up attributes that some primitives lack, and renumbers vertices.
     fn finish(self) -> Result<Soup> {
         let CollectedMeshes {
@@ -332,6 +304,37 @@ impl CollectedMeshes<'_> {
         soup.attributes = attributes.finite_only();
         Ok(soup)
     }
+}
+
+/// The faces of a primitive with `n` vertices, numbered from 0; none of points and lines.
+pub(super) fn faces(
+    primitive: &Primitive,
+    n: usize,
+    budget: &mut Budget,
+    file: &GltfFile<'_>,
+) -> Result<Vec<[u32; 3]>> {
+    let place = file.whole();
+    let mode = primitive.mode.unwrap_or(TRIANGLES);
+    if !(TRIANGLES..=FAN).contains(&mode) {
+        return Ok(Vec::new());
+    }
+    let at = match primitive.indices {
+        Some(index) => file.accessor(index, "indices", &[ElementShape::Scalar])?.indices(n, budget, file)?,
+        None => {
+            budget.take(n, size_of::<u32>(), "indices", place)?;
+            (0..n as u32).collect()
+        }
+    };
+    let count = if mode == TRIANGLES { at.len() / 3 } else { at.len().saturating_sub(2) };
+    budget.take(count, 2 * size_of::<[u32; 3]>(), "faces", place)?;
+    let face = |f: usize| match mode {
+        TRIANGLES => [at[3 * f], at[3 * f + 1], at[3 * f + 2]],
+        STRIP if f.is_multiple_of(2) => [at[f], at[f + 1], at[f + 2]],
+        STRIP => [at[f + 1], at[f], at[f + 2]],
+        _ => [at[0], at[f + 1], at[f + 2]],
+    };
+    // A repeated vertex joins strips together.
+    Ok((0..count).map(face).filter(|face| mode != STRIP || distinct(face)).collect())
 }
 
 /// The vector of length 1 in the same direction; a vector of length 0, or one that is not finite, is returned unchanged.

@@ -1,15 +1,15 @@
 //! Writer of binary glTF 2.0 with textures.
 
+use super::glb_chunks::GlbChunks;
 use super::materials::{MaterialStretch, stretches};
 use super::scene::unit;
 use super::seams::first_alike;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::Point;
-use crate::mesh::io::{TexturedMesh, write_atomically};
+use crate::mesh::io::TexturedMesh;
 use crate::mesh::weld::place_key;
 use serde_json::{Value, json};
 use std::collections::HashMap;
-use std::io::Write;
 use std::path::Path;
 
 /// A picture over the texture coordinates.
@@ -101,22 +101,7 @@ pub fn write_glb(path: &Path, data: &TexturedMesh<'_>, texture: Option<Texture<'
     if let Some(texture) = texture {
         parts.texture(texture);
     }
-    let (json, binary) = parts.chunks(placed.node());
-    let total = 12 + 8 + json.len() + 8 + binary.len();
-    let Ok(length) = u32::try_from(total) else {
-        return Err(Error::TooLarge { what: "bytes of a GLB file", count: total });
-    };
-    write_atomically(path, |out| {
-        out.write_all(b"glTF")?;
-        out.write_all(&2u32.to_le_bytes())?;
-        out.write_all(&length.to_le_bytes())?;
-        for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &binary)] {
-            out.write_all(&(chunk.len() as u32).to_le_bytes())?;
-            out.write_all(kind)?;
-            out.write_all(chunk)?;
-        }
-        Ok(())
-    })?;
+    parts.chunks(placed.node()).write(path)?;
     Ok(split.origin)
 }
 
@@ -306,7 +291,7 @@ impl GlbParts {
     }
 
     /// The JSON and the binary chunk. Without faces the vertices are points; glTF has no mesh without vertices.
-    fn chunks(self, node: Value) -> (Vec<u8>, Vec<u8>) {
+    fn chunks(self, node: Value) -> GlbChunks {
         let mut document = json!({
             "asset": {"version": "2.0", "generator": concat!("ricci ", env!("CARGO_PKG_VERSION"))},
             "scene": 0,
@@ -348,9 +333,7 @@ impl GlbParts {
             document["bufferViews"] = json!(self.views);
             document["buffers"] = json!([{"byteLength": self.binary.len()}]);
         }
-        let mut text = document.to_string().into_bytes();
-        text.resize(text.len().next_multiple_of(4), b' ');
-        (text, self.binary)
+        GlbChunks::new(&document, self.binary)
     }
 }
 
