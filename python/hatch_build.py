@@ -35,6 +35,7 @@ HEADERS = (
     "refine",
     "shapes",
     "texture",
+    "scene",
     "homotopy",
     "charts",
     "uniformize",

@@ -74,3 +74,16 @@ pub fn write_textured(path: &Path, soup: &Soup, png: &[u8], wrap: Wrap) -> Outco
         left_out("glTF", "gltf")
     }
 }
+
+/// Writes a mesh with tangents of its texture coordinates as .glb; returns what was left out.
+pub fn write_with_tangents(path: &Path, soup: &Soup) -> Outcome<Vec<String>> {
+    #[cfg(feature = "gltf")]
+    {
+        Ok(ricci::mesh::io::write_glb_with_tangents(path, soup)?)
+    }
+    #[cfg(not(feature = "gltf"))]
+    {
+        let _ = (path, soup);
+        left_out("glTF", "gltf").map(|()| Vec::new())
+    }
+}

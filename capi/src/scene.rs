@@ -5,7 +5,8 @@ use crate::control::{self, ricci_control};
 use crate::failure::Failure;
 use crate::guard::{self, handle, shared};
 use crate::memory;
-use crate::optional::{SceneFile, SceneOptions, SceneReport};
+use crate::optional::{SceneFile, SceneOptions, SceneReport, write_with_tangents};
+use crate::soup::ricci_soup;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use crate::texture_atlas::{ricci_texture_atlas, ricci_texture_options};
@@ -155,5 +156,20 @@ pub unsafe extern "C" fn ricci_scene_write(
             log::warn!("{}: {note}", path.display());
         }
         structs::write(ricci_scene_report::of(&made), report, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_write_with_tangents(
+    soup: *const ricci_soup,
+    path: *const c_char,
+) -> ricci_status {
+    guard::with(soup, |list| {
+        let path = arrays::path(path)?;
+        control::of_thread()?.step(Stage::Write, 0.2)?;
+        for what in write_with_tangents(&path, &list.soup)? {
+            log::warn!("{}: left out: {what}", path.display());
+        }
+        Ok(())
     })
 }

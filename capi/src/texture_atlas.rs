@@ -39,6 +39,7 @@ pub struct ricci_texture_options {
     pub page: u32,
     pub margin: i32,
     pub threads: usize,
+    pub density: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_texture_options, "options");
@@ -67,6 +68,7 @@ pub struct ricci_texture_atlas_summary {
     pub seam_length: f64,
     pub fill: f64,
     pub texel_density: f64,
+    pub n_pages: usize,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_texture_atlas_summary, "summary");
@@ -86,6 +88,7 @@ impl ricci_texture_options {
             // NaN is refused by the library, with a message.
             fill: if self.fill < 0.0 { 0.0 } else { or(self.fill, usual.fill) },
             threads: self.threads,
+            density: self.density,
         }
     }
 }
@@ -169,6 +172,7 @@ pub unsafe extern "C" fn ricci_texture_atlas_summarise(
             seam_length: quality.seam_length,
             fill: quality.fill,
             texel_density: quality.texel_density,
+            n_pages: atlas.pages,
         };
         structs::write(figures, summary, size)
     })
@@ -190,6 +194,18 @@ pub unsafe extern "C" fn ricci_texture_atlas_charts(
     capacity: usize,
 ) -> ricci_status {
     guard::with(atlas, |of| copy_out("charts", &of.atlas.chart, charts, capacity))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_texture_atlas_pages(
+    atlas: *const ricci_texture_atlas,
+    pages: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(atlas, |of| {
+        let found: Vec<u32> = (0..of.atlas.chart.len()).map(|f| of.atlas.page(f)).collect();
+        copy_out("pages", &found, pages, capacity)
+    })
 }
 
 #[unsafe(no_mangle)]

@@ -32,7 +32,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("labels", 10),
     ("refine", 10),
     ("shapes", 10),
-    ("texture", 10),
+    ("texture", 12),
     ("scene", 10),
 ];
 

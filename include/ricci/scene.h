@@ -163,6 +163,20 @@ RICCI_API ricci_status ricci_scene_write(const ricci_scene *scene, const ricci_t
                                          const ricci_scene_options *options, const char *path,
                                          ricci_scene_report *report, size_t size);
 
+/**
+ * Write a triangle list with texture coordinates, such as that of an atlas, as .glb with tangents: averages
+ * of those of a vertex's corners, weighted by angles. Vertices without normals get averages of those of their
+ * faces.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no texture coordinates, numbers that are not finite,
+ * not UTF-8), RICCI_UNKNOWN_FORMAT (a library built without glTF), RICCI_TOO_LARGE, RICCI_IO,
+ *         RICCI_NO_MEMORY.
+ *
+ * @param soup  the triangle list.
+ * @param path  file name in UTF-8.
+ */
+RICCI_API ricci_status ricci_soup_write_with_tangents(const ricci_soup *soup, const char *path);
+
 #ifdef __cplusplus
 }
 #endif

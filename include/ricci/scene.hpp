@@ -36,6 +36,11 @@ public:
     }
 };
 
+// A triangle list with texture coordinates as .glb with tangents.
+inline void write_with_tangents(const soup &textured, const std::string &path) {
+    check(ricci_soup_write_with_tangents(textured.get(), path.c_str()));
+}
+
 } // namespace ricci
 
 #endif

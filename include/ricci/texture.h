@@ -69,6 +69,12 @@ typedef struct ricci_texture_options {
      * once.
      */
     size_t threads;
+    /**
+     * Texels for a unit of length on the model, and as many pages as that takes, up to 160; 0: one page,
+     * filled as far as it goes. One density suits many models that share a scene; charts that are larger than
+     * a page are divided, and `fill` has no effect.
+     */
+    double density;
 } ricci_texture_options;
 
 /** Counts and figures of an atlas. Stretches are relative to the scale that keeps the total area. */
@@ -111,10 +117,12 @@ typedef struct ricci_texture_atlas_summary {
     double log_area_deviation;
     /** Length of the seams on the model, each once, over the root of its area. */
     double seam_length;
-    /** The share of the page that faces fill. */
+    /** The share of the pages that faces fill. */
     double fill;
     /** Texels per unit of length on the model. */
     double texel_density;
+    /** Pages; 1 unless a density is asked for. */
+    size_t n_pages;
 } ricci_texture_atlas_summary;
 
 /**
@@ -151,7 +159,8 @@ RICCI_API ricci_status ricci_soup_polygons(const ricci_soup *soup, uint32_t *pol
  *
  * The result is the same for any number of threads.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (an option outside its range),
- *         RICCI_LAYOUT (no face has a place, or the page has no room), RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *         RICCI_LAYOUT (no face has a place, the page has no room, a face is larger than a page, or more
+ *         than 160 pages are needed), RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param soup     the model.
  * @param options  stretch, page and margin, or NULL.
@@ -182,7 +191,8 @@ RICCI_API ricci_status ricci_texture_atlas_summarise(const ricci_texture_atlas *
 
 /**
  * The texture coordinates of the corners of the model's faces: multiples of 2^-24 in the unit square, which
- * files of 32-bit numbers hold too.
+ * files of 32-bit numbers hold too. Of several pages they are in the tiles of UDIM, multiples of 2^-20: page
+ * p has u from p mod 10 and v from p / 10, rounded down.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -203,6 +213,18 @@ RICCI_API ricci_status ricci_texture_atlas_uv(const ricci_texture_atlas *atlas, 
  */
 RICCI_API ricci_status ricci_texture_atlas_charts(const ricci_texture_atlas *atlas, uint32_t *charts,
                                                   size_t capacity);
+
+/**
+ * The pages of the model's faces.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param atlas     the atlas.
+ * @param pages     out: for each face its page, below n_pages; 0 for one without a place.
+ * @param capacity  entries of `pages`.
+ */
+RICCI_API ricci_status ricci_texture_atlas_pages(const ricci_texture_atlas *atlas, uint32_t *pages,
+                                                 size_t capacity);
 
 /**
  * A list of faces, ascending, of which the summary has the number.

@@ -43,6 +43,10 @@ public:
     std::vector<std::uint32_t> charts() const {
         return values<std::uint32_t>(ricci_texture_atlas_charts, get());
     }
+    // For each face its page.
+    std::vector<std::uint32_t> pages() const {
+        return values<std::uint32_t>(ricci_texture_atlas_pages, get());
+    }
     // The faces of a list: RICCI_TEXTURE_PLACELESS, ...
     std::vector<std::uint32_t> faces(std::uint32_t which) const {
         return values<std::uint32_t>(ricci_texture_atlas_faces, get(), which);

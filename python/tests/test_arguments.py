@@ -188,7 +188,7 @@ def plane(**given):
         (lambda mesh: mesh.refine_angle(least_angle=0), "least_angle"),
         (lambda mesh: mesh.refine_angle(most_added=0), "most_added"),
         (lambda mesh: ricci.Soup(mesh.V, mesh.F).refine(longest_edge=0.0), "longest_edge"),
-        *((lambda mesh, name=name: ricci.texture_atlas(mesh, **{name: 0}), name) for name in ("stretch", "page", "threads")),
+        *((lambda mesh, name=name: ricci.texture_atlas(mesh, **{name: 0}), name) for name in ("stretch", "page", "density", "threads")),
         (lambda mesh: plane(degree=0), "degree"),
         (lambda mesh: plane(spread=0.0), "spread"),
         *(

@@ -242,8 +242,10 @@ CASES = [
         {"name": b"part", "unit": 1, "colours": 1},
     ),
     (
-        options("texture_options", {"stretch": 1.5, "fill": 0, "page": 64, "margin": 0, "threads": 2}, texture_atlases._TEXTURE),
-        {"stretch": 1.5, "fill": -1, "page": 64, "margin": -1, "threads": 2},
+        options(
+            "texture_options", {"stretch": 1.5, "fill": 0, "page": 64, "margin": 0, "density": 8, "threads": 2}, texture_atlases._TEXTURE
+        ),
+        {"stretch": 1.5, "fill": -1, "page": 64, "margin": -1, "density": 8, "threads": 2},
     ),
     (options("scene_options", {"texcoord": 0, "tangents": True}, scenes._SCENE), {"texcoord": -1, "tangents": 1}),
     (

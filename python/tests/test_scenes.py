@@ -39,7 +39,10 @@ class Built:
         points = mesh.V.astype(np.float32)
         bounds = {"min": points.min(0).tolist(), "max": points.max(0).tolist()}
         named = {"POSITION": self.add(points, **bounds), **{key: self.add(values) for key, values in attributes.items()}}
-        return {"name": name, "primitives": [{"attributes": named, "indices": self.add(mesh.F.astype(np.uint16).ravel()), "material": material}]}
+        return {
+            "name": name,
+            "primitives": [{"attributes": named, "indices": self.add(mesh.F.astype(np.uint16).ravel()), "material": material}],
+        }
 
     def write(self, path: Path) -> None:
         text = json.dumps({**self.document, "buffers": [{"byteLength": len(self.binary)}]}).encode()
@@ -52,7 +55,7 @@ class Built:
 def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Five meshes with names and two materials below nodes that scale and turn them; one mesh is shown twice."""
     built = Built()
-    ball, torus = ricci.make("icosphere", n=1), ricci.make("torus", n=8, m=6)
+    ball, torus = ricci.make("sphere", n=4), ricci.make("torus", n=8, m=6)
     tube, disk = ricci.make("annulus", n=8), ricci.make("disk", n=4)
     normals = {"NORMAL": ball.V.astype(np.float32)}
     colors = {"COLOR_0": np.arange(4 * disk.n_vertices, dtype=np.uint8).reshape(-1, 4)}
@@ -138,6 +141,15 @@ def test_tangents_and_sets_are_asked_for(path: Path, written: tuple, tmp_path: P
     names = [sorted(mesh["primitives"][0]["attributes"]) for mesh in meshes]
     assert names[0] == ["NORMAL", "POSITION", "TANGENT", "TEXCOORD_0", "TEXCOORD_1"]
     assert names[3] == ["COLOR_0", "POSITION", "TEXCOORD_0", "TEXCOORD_1"]
+
+
+def test_a_model_without_normals_gets_tangents(tmp_path: Path) -> None:
+    atlas = ricci.texture_atlas(ricci.make("disk", n=4), page=64)
+    atlas.write(tmp_path / "t.glb", tangents=True)
+    found = document(tmp_path / "t.glb")
+    attributes = found["meshes"][0]["primitives"][0]["attributes"]
+    assert sorted(attributes) == ["NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"]
+    assert found["accessors"][attributes["TANGENT"]]["type"] == "VEC4"
 
 
 def test_what_does_not_fit_is_refused(path: Path, written: tuple, tmp_path: Path) -> None:

@@ -87,6 +87,20 @@ def test_models_of_every_kind(cube: ricci.Soup) -> None:
     assert tight.seam_length > one.summary.seam_length
 
 
+def test_a_density_takes_the_pages_that_it_needs(cube: ricci.Soup) -> None:
+    model = ricci.Soup(CORNERS, cube.F[:12])
+    atlas = ricci.texture_atlas(model, page=32, density=20)
+    assert atlas.summary.n_pages > 1
+    assert set(atlas.pages) == set(range(atlas.summary.n_pages))
+    assert np.array_equal(np.floor(atlas.uv[:, :, 0]), np.repeat(atlas.pages[:, None], 3, axis=1))
+    # Each square has 20 texels along a side.
+    assert np.allclose(doubled_areas(atlas.uv), (20 / 32) ** 2, rtol=1e-3)
+    assert atlas.summary.texel_density == pytest.approx(20, rel=1e-3)
+    assert atlas.overlapping.size == 0
+    with pytest.raises(ricci.LayoutError, match="larger than a page"):
+        ricci.texture_atlas(model, page=16, density=20)
+
+
 def test_what_cannot_be_is_refused(cube: ricci.Soup) -> None:
     for options, words in (({"page": 100}, "page"), ({"stretch": 1}, "stretch"), ({"fill": 2}, "fill"), ({"margin": 200}, "margin")):
         with pytest.raises(ricci.ArgumentError, match=words):

@@ -9,7 +9,7 @@
 //! here vertices are those that are given. Charts of an atlas have one sign each, so that their vertices need no parting.
 
 use super::Point;
-use crate::geometry::vector::{cross, dot, norm, perpendicular, sub};
+use crate::geometry::vector::{cross, dot, norm, perpendicular, sub, triangle_normal};
 
 /// A surface with one normal and one pair of texture coordinates for each vertex.
 #[derive(Debug, Clone, Copy)]
@@ -59,6 +59,21 @@ pub fn vertex_tangents(frames: &TangentFrames<'_>) -> Vec<[f64; 4]> {
     sums.into_iter().zip(normals).map(whole).collect()
 }
 
+/// For each vertex the unit vector along the sum of the normals of its faces, weighted by their angles there; 0 for a vertex without a face that
+/// has an area.
+pub fn vertex_normals(positions: &[Point], faces: &[[u32; 3]]) -> Vec<Point> {
+    let mut sums = vec![[0.0; 3]; positions.len()];
+    for face in faces {
+        let corners = face.map(|v| v as usize);
+        let Some(normal) = unit(triangle_normal(corners.map(|v| positions[v]))) else { continue };
+        for (k, vertex) in corners.into_iter().enumerate() {
+            let angle = corner_angle([0, 1, 2].map(|j| positions[corners[(k + j) % 3]]));
+            (0..3).for_each(|j| sums[vertex][j] += angle * normal[j]);
+        }
+    }
+    sums.into_iter().map(|sum| unit(sum).unwrap_or([0.0; 3])).collect()
+}
+
 /// The vector without its part along a unit vector.
 fn beside(x: Point, normal: Point) -> Point {
     let along = dot(x, normal);
@@ -97,6 +112,16 @@ mod tests {
                 assert!(found.iter().zip(wanted).all(|(x, y)| (x - y).abs() < 1e-14), "{found:?}");
             }
         }
+    }
+
+    /// The three right angles at the corner of a cube weigh alike, however large their faces are.
+    #[test]
+    fn the_normal_of_a_corner_of_a_cube_is_its_diagonal() {
+        let positions = [[0.0; 3], [-1.0, 0.0, 0.0], [0.0, -7.0, 0.0], [0.0, 0.0, -0.1], [9.0; 3]];
+        let faces = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [0, 0, 1]];
+        let normals = vertex_normals(&positions, &faces);
+        assert!(normals[0].iter().all(|x| (x - 1.0 / 3f64.sqrt()).abs() < 1e-14), "{:?}", normals[0]);
+        assert_eq!(normals[4], [0.0; 3]);
     }
 
     #[test]

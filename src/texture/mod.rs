@@ -12,7 +12,7 @@
 //!    solves `L u = −K` with u = 0 on the seams, which lead to the vertices where |u| is largest, as in \[GGH02\].
 //! 3. The opened sheet is laid flat with least stretch ([`mod@crate::flatten`]), which turns no face over.
 //! 4. A chart that overlaps itself is divided along a short path, and so is one that leaves much of the page empty.
-//! 5. Charts are packed by their texels, with a margin between them.
+//! 5. Charts are packed by their texels, with a margin between them: on one page, as large as they find room, or at a given density on several.
 //!
 //! ```
 //! use ricci::mesh::shapes;
@@ -29,6 +29,7 @@
 
 mod atlas_model;
 mod cross_cut;
+mod division;
 mod flat_chart;
 mod opening;
 mod options;

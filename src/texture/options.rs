@@ -27,13 +27,16 @@ pub struct TextureOptions {
     /// The share of the page that charts are to fill, from 0 to 1: charts are divided along short paths as long as less is filled and the
     /// page gains from it. 0 divides no chart for that. Default 0.68.
     pub fill: f64,
+    /// Texels for a unit of length on the model, and as many pages as that takes, up to 160; charts that are larger than a page are divided, and
+    /// `fill` has no effect. 0 for one page, filled as far as it goes. Default 0.
+    pub density: f64,
     /// The number of threads; 0: all. The result does not depend on it. Default 0.
     pub threads: usize,
 }
 
 impl Default for TextureOptions {
     fn default() -> Self {
-        TextureOptions { stretch: STRETCH, margin: MARGIN, page: PAGE, fill: FILL, threads: 0 }
+        TextureOptions { stretch: STRETCH, margin: MARGIN, page: PAGE, fill: FILL, density: 0.0, threads: 0 }
     }
 }
 
@@ -53,6 +56,19 @@ impl TextureOptions {
         if !(0.0..=1.0).contains(&self.fill) {
             return Err(Error::argument("fill", self.fill, "from 0 to 1"));
         }
+        if !(self.density >= 0.0 && self.density.is_finite()) {
+            return Err(Error::argument("density", self.density, "a number of texels that is not negative"));
+        }
         Ok(())
+    }
+
+    /// The same options for a model that is scaled by a factor.
+    pub(super) fn for_scaled(&self, factor: f64) -> TextureOptions {
+        TextureOptions { density: self.density / factor, ..self.clone() }
+    }
+
+    /// The density in texels of a page that has so many, which stand for those that are asked for.
+    pub(super) fn scale(&self, texels: usize) -> f64 {
+        self.density * texels as f64 / f64::from(self.page)
     }
 }

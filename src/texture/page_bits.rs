@@ -19,6 +19,11 @@ impl TexelMask {
         &self.bits[y * self.words..(y + 1) * self.words]
     }
 
+    /// The number of bits that are set.
+    pub fn count(&self) -> usize {
+        self.bits.iter().map(|word| word.count_ones() as usize).sum()
+    }
+
     /// Sets the bits from `from` to `to`, both included, of a row.
     fn set(&mut self, y: usize, from: usize, to: usize) {
         let row = &mut self.bits[y * self.words..(y + 1) * self.words];

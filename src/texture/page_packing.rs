@@ -26,6 +26,21 @@ const MORE: f64 = 1.05;
 /// The least share that is tried: less of a page than its margins.
 const LEAST_SHARE: f64 = 1e-6;
 
+/// The most pages: those of ten columns and sixteen rows of tiles.
+pub(super) const MOST_PAGES: usize = 160;
+/// The columns of tiles in UDIM.
+const COLUMNS: u32 = 10;
+
+/// The lower left corner of the tile of a page.
+pub(super) fn tile_of(page: u32) -> [f64; 2] {
+    [page % COLUMNS, page / COLUMNS].map(f64::from)
+}
+
+/// The page of the tile with this point.
+pub(super) fn page_at([u, v]: [f64; 2]) -> u32 {
+    u as u32 + COLUMNS * v as u32
+}
+
 /// A page in texels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PackedPage {
@@ -49,8 +64,16 @@ pub(super) struct Packing {
     /// Texels per unit of length.
     pub scale: f64,
     pub places: Vec<PagePlace>,
-    /// The share of the page that the charts' areas fill.
+    /// Per chart its page.
+    pub pages: Vec<u32>,
+    /// The share of the pages that the charts' areas fill.
     pub fill: f64,
+}
+
+impl Packing {
+    pub fn n_pages(&self) -> usize {
+        self.pages.iter().max().map_or(1, |last| *last as usize + 1)
+    }
 }
 
 /// A chart in one direction.
@@ -60,6 +83,13 @@ struct TurnedMask {
     mask: TexelMask,
     /// Of the mask with its margin.
     rows: Vec<MaskRow>,
+}
+
+/// The points of a chart in one direction, with the least whole numbers of texels and the texels along both axes.
+struct TurnedPoints {
+    points: Vec<[f64; 2]>,
+    low: [f64; 2],
+    size: [usize; 2],
 }
 
 /// Charts with the angles that are tried for each, at one scale.
@@ -106,7 +136,8 @@ impl PackedPage {
             for order in &orders {
                 let scaled = ScaledCharts { charts, directions: &directions, scale };
                 if let Some(places) = self.placed(&scaled, order, control)? {
-                    return Ok(Some(Packing { scale, places, fill: share }));
+                    let pages = vec![0; charts.len()];
+                    return Ok(Some(Packing { scale, places, pages, fill: share }));
                 }
             }
             Ok(None)
@@ -135,6 +166,64 @@ impl PackedPage {
         Ok(best)
     }
 
+    /// The angle at which a chart at this scale is no larger than the page: along its least square, or its least rectangle; none without.
+    pub fn fitting(&self, chart: &FlatChart, scale: f64) -> Option<f64> {
+        let hull = convex_hull(&chart.points);
+        let angles = [least_square(&hull).0, least_rectangle(&hull).0];
+        angles.into_iter().find(|angle| self.turned(chart, *angle, scale).is_some())
+    }
+
+    /// Charts at a scale, each on the first page that has room for it; none if they need more than [`MOST_PAGES`], or one is larger than a page.
+    ///
+    /// # Errors
+    /// [`crate::Error::Cancelled`].
+    pub fn pack_at(&self, charts: &[FlatChart], scale: f64, control: &Control) -> Result<Option<Packing>> {
+        let directions = self.directions(charts);
+        let (mut masks, mut used): (Vec<TexelMask>, Vec<usize>) = (Vec::new(), Vec::new());
+        let mut places = vec![PagePlace::default(); charts.len()];
+        let mut pages = vec![0; charts.len()];
+        for &k in &orders(charts)[0] {
+            control.check()?;
+            // Of many charts few directions are tried, and of a large one all may be too long.
+            let angles = [&directions[k][..], self.fitting(&charts[k], scale).as_slice()].concat();
+            let turned = parallel::map(angles.len(), |d| self.mask(&charts[k], angles[d], scale));
+            // A page with fewer free texels than the chart has no room for it, which is seen without a search.
+            let least = turned.iter().flatten().map(|one| one.mask.count()).min().unwrap_or(0);
+            let known = (0..masks.len())
+                .filter(|p| used[*p] + least <= self.room() * self.room())
+                .find_map(|p| Some((p, self.lowest(&masks[p], &turned)?)));
+            let (page, (which, [x, y])) = match known {
+                Some(found) => found,
+                None if masks.len() == MOST_PAGES => return Ok(None),
+                None => {
+                    masks.push(self.empty());
+                    used.push(0);
+                    let Some(found) = self.lowest(&masks[masks.len() - 1], &turned) else { return Ok(None) };
+                    (masks.len() - 1, found)
+                }
+            };
+            let Some(chosen) = &turned[which] else { return Ok(None) };
+            masks[page].add(&chosen.mask, [x + self.margin, y + self.margin]);
+            used[page] += chosen.mask.count();
+            places[k] = self.place(chosen, [x, y]);
+            pages[k] = page as u32;
+        }
+        let area: f64 = charts.iter().map(FlatChart::area).sum();
+        let fill = area * scale * scale / (self.texels * self.texels * masks.len().max(1)) as f64;
+        Ok(Some(Packing { scale, places, pages, fill }))
+    }
+
+    /// A page without charts.
+    fn empty(&self) -> TexelMask {
+        TexelMask::new(self.room() + 2 * self.margin, self.room() + 2 * self.margin)
+    }
+
+    /// The place of a chart whose mask has its first bit at (x, y).
+    fn place(&self, chosen: &TurnedMask, at: [usize; 2]) -> PagePlace {
+        let shift = [0, 1].map(|c| (at[c] + self.edge()) as f64 - chosen.low[c]);
+        PagePlace { angle: chosen.angle, shift }
+    }
+
     /// The places of charts, added in an order; none if one of them finds no room.
     fn placed(
         &self,
@@ -143,7 +232,7 @@ impl PackedPage {
         control: &Control,
     ) -> Result<Option<Vec<PagePlace>>> {
         let ScaledCharts { charts, directions, scale } = *scaled;
-        let mut page = TexelMask::new(self.room() + 2 * self.margin, self.room() + 2 * self.margin);
+        let mut page = self.empty();
         let mut places = vec![PagePlace::default(); charts.len()];
         for &k in order {
             control.check()?;
@@ -152,8 +241,7 @@ impl PackedPage {
             let Some((which, [x, y])) = self.lowest(&page, &turned) else { return Ok(None) };
             let Some(chosen) = &turned[which] else { return Ok(None) };
             page.add(&chosen.mask, [x + self.margin, y + self.margin]);
-            let shift = [0, 1].map(|c| ([x, y][c] + self.edge()) as f64 - chosen.low[c]);
-            places[k] = PagePlace { angle: chosen.angle, shift };
+            places[k] = self.place(chosen, [x, y]);
         }
         Ok(Some(places))
     }
@@ -184,21 +272,24 @@ impl PackedPage {
 
     /// The texels of a chart in one direction; none if they are more than those of the page.
     fn mask(&self, chart: &FlatChart, angle: f64, scale: f64) -> Option<TurnedMask> {
-        let turn = PagePlace { angle, shift: [0.0; 2] };
-        let points: Vec<[f64; 2]> = chart.points.iter().map(|p| turn.of(*p, scale)).collect();
-        let bound = |c: usize, pick: fn(f64, f64) -> f64| points.iter().map(|p| p[c]).reduce(pick);
-        let low = [bound(0, f64::min)?, bound(1, f64::min)?].map(f64::floor);
-        let high = [bound(0, f64::max)?, bound(1, f64::max)?];
-        let size = [0, 1].map(|c| (high[c] - low[c]).floor() as usize + 1);
-        if size.iter().any(|s| *s > self.room()) {
-            return None;
-        }
+        let TurnedPoints { points, low, size } = self.turned(chart, angle, scale)?;
         let mut mask = TexelMask::new(size[0], size[1]);
         for corners in &chart.part.corners {
             mask.cover(corners.map(|v| [0, 1].map(|c| points[v as usize][c] - low[c])));
         }
         let rows = mask.grown(self.margin).spread_rows();
         Some(TurnedMask { angle, low, mask, rows })
+    }
+
+    /// The points of a chart in one direction; none if they touch more texels than the page has.
+    fn turned(&self, chart: &FlatChart, angle: f64, scale: f64) -> Option<TurnedPoints> {
+        let turn = PagePlace { angle, shift: [0.0; 2] };
+        let points: Vec<[f64; 2]> = chart.points.iter().map(|p| turn.of(*p, scale)).collect();
+        let bound = |c: usize, pick: fn(f64, f64) -> f64| points.iter().map(|p| p[c]).reduce(pick);
+        let low = [bound(0, f64::min)?, bound(1, f64::min)?].map(f64::floor);
+        let high = [bound(0, f64::max)?, bound(1, f64::max)?];
+        let size = [0, 1].map(|c| ((high[c] - low[c]).floor() as usize).saturating_add(1));
+        size.iter().all(|s| *s <= self.room()).then_some(TurnedPoints { points, low, size })
     }
 
     /// Per chart the angles that are tried: sides of the least rectangle along the axes, those of the least square, and halfway between.

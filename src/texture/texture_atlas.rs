@@ -1,22 +1,21 @@
 //! The texture atlas of a model, from its triangles to the page.
 
 use super::atlas_model::AtlasModel;
-use super::cross_cut::waist;
+use super::division::{divide_to_fill, divide_to_fit};
 use super::flat_chart::{ChartFaces, FlatChart};
 use super::opening::{alone, laid_flat};
 use super::options::TextureOptions;
-use super::page_packing::{MOST_TEXELS, PackedPage, Packing};
+use super::page_packing::{MOST_PAGES, MOST_TEXELS, PackedPage, Packing, page_at, tile_of};
 use super::quality::{FaceMap, TextureQuality, face_map};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::complex::doubled_area;
-use crate::geometry::packing::{least_rectangle, least_square};
 use crate::geometry::predicates::orientation;
 use crate::geometry::triangle_overlap::{TriangleCorners, overlapping};
 use crate::geometry::vector::distance;
+use crate::mesh::Point;
 use crate::mesh::io::Soup;
 use crate::mesh::sheets::{Sheet, SheetList};
-use crate::mesh::{Mesh, Point};
 use crate::parallel;
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -24,6 +23,8 @@ use std::collections::HashMap;
 /// Coordinates are multiples of the inverse of this number, which numbers of 32 bits below 1 hold without rounding: the files that have
 /// these and those that have 64 bits hold the same map.
 const GRID: f64 = (1u64 << 24) as f64;
+/// The same for several pages, whose tiles have coordinates below 16.
+const TILE_GRID: f64 = (1u64 << 20) as f64;
 /// The most times that faces which rounding folds are taken out of their charts. Faces that fold even then get no place.
 const MENDINGS: usize = 4;
 /// Least height, in steps of the grid, of a face that no rounding folds: its corner and the side across move by half the diagonal of a step
@@ -34,24 +35,14 @@ const LEAST_TEXELS: f64 = 0.1;
 const LEAST_HEIGHT: f64 = 0.02;
 /// Largest coordinates of models that are laid out as they are: products of four lengths neither overflow nor lose digits.
 const MODERATE: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
-/// The texels along a side at which divisions of charts are tried.
-const TRIAL_TEXELS: usize = 256;
-/// The least gain of the filled share, per division, by which divisions stay.
-const WORTH_DIVIDING: f64 = 0.01;
-/// The divisions in a row without such a gain after which no further one is tried.
-const WITHOUT_GAIN: u32 = 5;
-/// The part of the share filled before that charts with one more division have to fill to be divided further.
-const MAY_LOSE: f64 = 0.8;
-/// Charts that are tried at each division for what their boxes leave empty.
-const WASTEFUL: usize = 2;
-/// The most charts of a page that is filled by divisions: more fill it by themselves.
-const MOST_CHARTS: usize = 64;
-
 /// A model with texture coordinates on its own faces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureAtlas {
-    /// Per face of the model, in its order, the coordinates of its corners in the unit square: multiples of 2⁻²⁴.
+    /// Per face of the model, in its order, the coordinates of its corners in the unit square: multiples of 2⁻²⁴. With several pages they are
+    /// in the tiles of UDIM, multiples of 2⁻²⁰: page p has u from p mod 10 and v from ⌊p / 10⌋, so that its number there is 1001 + p.
     pub corner_uv: Vec<TriangleCorners>,
+    /// The number of pages, at most 160; 1 unless a density is asked for.
+    pub pages: usize,
     /// Per face its chart; charts are numbered by their area, the largest first. [`TextureAtlas::NO_CHART`] for a face without a place.
     pub chart: Vec<u32>,
     /// The number of charts.
@@ -77,6 +68,11 @@ pub struct TextureAtlas {
 impl TextureAtlas {
     /// The chart of a face without a place.
     pub const NO_CHART: u32 = u32::MAX;
+
+    /// The page of a face; 0 for one without a place.
+    pub fn page(&self, face: usize) -> u32 {
+        page_at(self.corner_uv[face][0])
+    }
 }
 
 /// A texture atlas for any triangle list: every face keeps its number and gets a place.
@@ -122,7 +118,13 @@ fn of_model(
             ));
         }
         control.step(Stage::Layout, 0.6)?;
-        divide_to_fill(&mut charts, options, control)?;
+        let options = &options.for_scaled(factor);
+        if options.density > 0.0 {
+            let page = packed_page(options);
+            divide_to_fit(&mut charts, &page, options.scale(page.texels), control)?;
+        } else {
+            divide_to_fill(&mut charts, options, control)?;
+        }
         let mut atlas = packed(model, &found, &mut charts, options, control)?;
         for _ in 0..MENDINGS {
             if atlas.folded.is_empty() && atlas.overlapping.is_empty() {
@@ -163,12 +165,13 @@ fn packed(
     control: &Control,
 ) -> Result<TextureAtlas> {
     charts.sort_by(|a, b| b.area().total_cmp(&a.area()).then(a.part.faces[0].cmp(&b.part.faces[0])));
-    let texels = (options.page as usize).min(MOST_TEXELS);
-    let margin = (options.margin as usize * texels).div_ceil(options.page as usize);
-    let page = PackedPage { texels, margin, is_thorough: true };
-    let packing = page.pack(charts, 0.0, control)?.ok_or_else(no_room)?;
+    let page = packed_page(options);
+    let packing = match options.density > 0.0 {
+        true => page.pack_at(charts, options.scale(page.texels), control)?.ok_or_else(too_many_pages)?,
+        false => page.pack(charts, 0.0, control)?.ok_or_else(no_room)?,
+    };
     control.step(Stage::Layout, 0.9)?;
-    let mut atlas = on_page(model.soup, charts, &packing, texels as f64);
+    let mut atlas = on_page(model.soup, charts, &packing, page.texels as f64);
     // Charts have the corners of a turned face in the other order.
     let turned: Vec<u32> = (0..model.soup.faces.len() as u32).filter(|f| found.turned[*f as usize]).collect();
     turned.iter().for_each(|f| atlas.corner_uv[*f as usize].swap(1, 2));
@@ -204,13 +207,18 @@ fn without_bad(
     atlas.checked(model, page, control)
 }
 
+/// The inverse of the step of the coordinates.
+fn grid(pages: usize) -> f64 {
+    if pages > 1 { TILE_GRID } else { GRID }
+}
+
 /// True for a face whose height on the page is so small that another rounding could fold it.
-fn is_at_risk(uv: TriangleCorners) -> bool {
+fn is_at_risk(uv: TriangleCorners, grid: f64) -> bool {
     let longest = (0..3).map(|k| {
         let [p, q] = [uv[k], uv[(k + 1) % 3]];
         (p[0] - q[0]).hypot(p[1] - q[1])
     });
-    doubled_area(uv).abs() * GRID < SAFE_STEPS * longest.fold(0.0, f64::max)
+    doubled_area(uv).abs() * grid < SAFE_STEPS * longest.fold(0.0, f64::max)
 }
 
 /// Gives each face that rounding folds or lets overlap, or could fold elsewhere, a chart of its own, wide enough for the grid.
@@ -221,7 +229,9 @@ fn take_out(charts: &mut Vec<FlatChart>, atlas: &TextureAtlas) {
     let mut kept = Vec::with_capacity(charts.len());
     for chart in std::mem::take(charts) {
         let is_alone = chart.part.faces.len() == 1;
-        let is_bad = |f: &u32| is_folded(f) || (!is_alone && is_at_risk(atlas.corner_uv[*f as usize]));
+        let is_bad = |f: &u32| {
+            is_folded(f) || (!is_alone && is_at_risk(atlas.corner_uv[*f as usize], grid(atlas.pages)))
+        };
         let bad: Vec<bool> = chart.part.faces.iter().map(is_bad).collect();
         if !bad.contains(&true) {
             kept.push(chart);
@@ -239,6 +249,19 @@ fn take_out(charts: &mut Vec<FlatChart>, atlas: &TextureAtlas) {
         }
     }
     *charts = kept;
+}
+
+/// The page with the most texels in which charts are packed.
+fn packed_page(options: &TextureOptions) -> PackedPage {
+    let texels = (options.page as usize).min(MOST_TEXELS);
+    let margin = (options.margin as usize * texels).div_ceil(options.page as usize);
+    PackedPage { texels, margin, is_thorough: true }
+}
+
+fn too_many_pages() -> Error {
+    let message =
+        format!("the charts need more than {MOST_PAGES} pages: take larger ones or a smaller density");
+    Error::Layout(message)
 }
 
 fn no_room() -> Error {
@@ -264,86 +287,13 @@ fn all_charts(
     Ok(all)
 }
 
-/// Divides charts at their waists as long as the page is filled better for it.
-fn divide_to_fill(charts: &mut Vec<FlatChart>, options: &TextureOptions, control: &Control) -> Result<()> {
-    if options.fill == 0.0 || charts.len() > MOST_CHARTS {
-        return Ok(());
-    }
-    let texels = (options.page as usize).min(TRIAL_TEXELS);
-    // Texels that are touched in part already keep charts apart about as far as the margin does on the whole page.
-    let page = PackedPage { texels, margin: 0, is_thorough: false };
-    let Some(first) = page.pack(charts, 0.0, control)? else { return Ok(()) };
-    let (mut now, mut best, mut since) = (charts.clone(), first.fill, 0);
-    let mut fill = best;
-    while best < options.fill && since < WITHOUT_GAIN {
-        let Some((tried, filled)) = best_division(&now, fill, &page, control)? else { break };
-        (now, fill, since) = (tried, filled, since + 1);
-        if fill > best + WORTH_DIVIDING * f64::from(since) {
-            (*charts, best, since) = (now.clone(), fill, 0);
-        }
-    }
-    Ok(())
-}
-
-/// The charts with one of the most wasteful ones divided: the one that fills most of the page for its length, and what is filled then; none
-/// if each leaves much less filled than before.
-fn best_division(
-    charts: &[FlatChart],
-    fill: f64,
-    page: &PackedPage,
-    control: &Control,
-) -> Result<Option<(Vec<FlatChart>, f64)>> {
-    let mut found: Option<(f64, Vec<FlatChart>, f64)> = None;
-    for k in candidates(charts) {
-        let Some((parts, cost)) = divided(&charts[k]) else { continue };
-        let mut tried = charts.to_vec();
-        tried.splice(k..=k, parts);
-        let Some(packing) = page.pack(&tried, MAY_LOSE * fill, control)? else { continue };
-        let gain = packing.fill - fill;
-        // Where none helps at once, the largest chart is divided: it keeps all others small.
-        let is_first = found.is_none();
-        let worth = if gain > WORTH_DIVIDING {
-            gain / cost
-        } else if is_first {
-            0.0
-        } else {
-            gain.min(0.0) - WORTH_DIVIDING
-        };
-        if found.as_ref().is_none_or(|known| worth > known.0) {
-            found = Some((worth, tried, packing.fill));
-        }
-    }
-    Ok(found.map(|(_, charts, fill)| (charts, fill)))
-}
-
-/// The charts that may be divided for the page: the one that needs the largest square, and those with the largest part of their boxes empty.
-fn candidates(charts: &[FlatChart]) -> Vec<usize> {
-    let measure = |chart: &FlatChart| {
-        let [long, short] = least_rectangle(&chart.points).1;
-        [least_square(&chart.points).1[0], long * long.min(4.0 * short) - chart.area()]
-    };
-    let measured: Vec<[f64; 2]> = charts.iter().map(measure).collect();
-    let by = |k: usize| {
-        let mut order: Vec<usize> = (0..charts.len()).collect();
-        order.sort_by(|&i, &j| measured[j][k].total_cmp(&measured[i][k]).then(i.cmp(&j)));
-        order
-    };
-    let largest = by(0)[0];
-    let wasteful = by(1).into_iter().filter(|&k| k != largest).take(WASTEFUL);
-    std::iter::once(largest).chain(wasteful).collect()
-}
-
-/// A chart divided at its waist, and the length of the cut.
-fn divided(chart: &FlatChart) -> Option<(Vec<FlatChart>, f64)> {
-    let mesh: Mesh = chart.part.mesh().ok()?;
-    let cut = waist(chart, &mesh)?;
-    Some((chart.apart(&mesh, |e| cut.is_cut[e]), cut.length))
-}
-
 /// The coordinates on the page.
 fn on_page(soup: &Soup, charts: &[FlatChart], packing: &Packing, texels: f64) -> TextureAtlas {
     let n = soup.faces.len();
+    let pages = packing.n_pages();
+    let grid = grid(pages);
     let mut atlas = TextureAtlas {
+        pages,
         corner_uv: vec![[[0.0; 2]; 3]; n],
         chart: vec![TextureAtlas::NO_CHART; n],
         charts: charts.len(),
@@ -356,9 +306,11 @@ fn on_page(soup: &Soup, charts: &[FlatChart], packing: &Packing, texels: f64) ->
         quality: TextureQuality::default(),
     };
     for (k, (chart, place)) in charts.iter().zip(&packing.places).enumerate() {
-        let rounded = |x: f64| (x / texels * GRID).round().clamp(0.0, GRID - 1.0) / GRID;
+        let rounded = |x: f64| (x / texels * grid).round().clamp(0.0, grid - 1.0) / grid;
+        let tile = tile_of(packing.pages[k]);
+        let on_tile = |p: [f64; 2]| [0, 1].map(|c| tile[c] + rounded(p[c]));
         let points: Vec<[f64; 2]> =
-            chart.points.iter().map(|p| place.of(*p, packing.scale).map(rounded)).collect();
+            chart.points.iter().map(|p| on_tile(place.of(*p, packing.scale))).collect();
         for (&f, corners) in chart.part.faces.iter().zip(&chart.part.corners) {
             atlas.corner_uv[f as usize] = corners.map(|v| points[v as usize]);
             atlas.chart[f as usize] = k as u32;
@@ -388,6 +340,7 @@ impl TextureAtlas {
         let placed = (0..self.chart.len() as u32).filter(is_placed);
         let maps: Vec<FaceMap> = placed.filter_map(map).collect();
         self.quality = TextureQuality::new(&maps, self.seam_length(model), page);
+        self.quality.fill /= self.pages as f64;
         Ok(self)
     }
 

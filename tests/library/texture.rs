@@ -52,6 +52,40 @@ fn a_cube_unfolds_without_stretch_along_seven_of_its_edges() {
 }
 
 #[test]
+fn a_density_takes_the_pages_that_it_needs() {
+    let options = TextureOptions { page: 32, density: 20.0, ..small() };
+    let found = texture_atlas(&cube(), &options, &Control::new()).unwrap();
+    assert_eq!((&found.folded, &found.overlapping, &found.placeless), (&vec![], &vec![], &vec![]));
+    assert!((found.quality.texel_density - 20.0).abs() < 1e-2, "{:?}", found.quality);
+    // A square of 20 texels along a side leaves no room for another one.
+    assert!((6..=12).contains(&found.pages), "{}", found.pages);
+    let half = 0.5 * (20.0 / 32.0) * (20.0 / 32.0);
+    let mut filled = vec![0.0; found.pages];
+    for (f, uv) in found.corner_uv.iter().enumerate() {
+        let page = found.page(f);
+        assert!(
+            uv.iter().all(|[u, v]| u.floor() == f64::from(page % 10) && v.floor() == f64::from(page / 10)),
+            "{uv:?}"
+        );
+        assert!(uv.as_flattened().iter().all(|x| (x * f64::from(1 << 20)).fract() == 0.0), "{uv:?}");
+        let area = 0.5 * ricci::geometry::complex::doubled_area(*uv);
+        assert!((area - half).abs() < 1e-3 * half, "{area}");
+        filled[page as usize] += area;
+    }
+    assert!(filled.iter().all(|area| *area > 0.9 * half), "{filled:?}");
+    assert!((found.quality.fill - 12.0 * half / found.pages as f64).abs() < 1e-3);
+    // One page where that is enough, with the coordinates of one page.
+    let one = atlas(&cube(), &TextureOptions { density: 20.0, ..small() });
+    assert!(one.pages == 1 && (one.quality.texel_density - 20.0).abs() < 1e-2, "{:?}", one.quality);
+    let refused = texture_atlas(&cube(), &TextureOptions { page: 16, ..options.clone() }, &Control::new());
+    assert!(matches!(&refused, Err(Error::Layout(why)) if why.contains("larger than a page")), "{refused:?}");
+    // Of 27 cubes each of 162 squares needs a page.
+    let row = (0..27).fold(Soup::default(), |row, k| beside(row, &cube(), 2.0 * f64::from(k)));
+    let refused = texture_atlas(&row, &options, &Control::new());
+    assert!(matches!(&refused, Err(Error::Layout(why)) if why.contains("160 pages")), "{refused:?}");
+}
+
+#[test]
 fn the_bound_of_the_stretch_holds_and_costs_seams() {
     let sphere = shapes::icosphere(3).unwrap();
     let found = [1.6, 1.15].map(|stretch| {

@@ -22,14 +22,19 @@ of 2^-24: .obj and .glb hold the same ones.
 --fill divides charts along short paths while the page is filled less than that; 0 leaves seams shortest. Charts keep --margin texels apart on
 a page of --page texels.
 
+--density D gives every unit of length D texels, over all meshes of a scene, on as many pages of --page texels as that takes; charts that are larger than
+a page are divided, and --fill has no effect. Page p is the tile 1001 + p of UDIM: its u begins at p mod 10, its v at p / 10 rounded down; the numbers are
+then multiples of 2^-20.
+
 A scene stays a scene: of a .glb or .gltf file, -o OUT.glb has the nodes, materials, cameras, animations, names and extras as they were, and one
 atlas for all its meshes, with texels of one size in the scene. Vertices are repeated along seams with all their attributes and morph targets.
 A mesh that several nodes show has one set of charts, in the size of the largest. Textures keep their places: the atlas is TEXCOORD_0 if no texture
-uses that, else the next free set; --texcoord N asks for another one. --tangents writes tangents of the atlas for meshes with normals.
+uses that, else the next free set; --texcoord N asks for another one. --tangents writes tangents of the atlas for meshes
+with normals; a model that is no scene gets normals where it has none.
 
 Files
     -o OUT.obj | OUT.glb       the model with its texture coordinates
-    --xref X.csv               rows texcoord,vertex,chart: the model's vertex of each texture coordinate of an OBJ file (numbered from 0)";
+    --xref X.csv               rows texcoord,vertex,chart,page: the model's vertex of each texture coordinate of an OBJ file (numbered from 0)";
 
 #[derive(Args, Serialize, Debug)]
 pub struct TextureArgs {
@@ -54,10 +59,13 @@ pub struct TextureArgs {
     /// The set of texture coordinates of a scene that the atlas becomes, TEXCOORD_N
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=7))]
     pub texcoord: Option<u32>,
-    /// Write tangents of the atlas into a scene, where there are normals
+    /// Write tangents of the atlas, into .glb
     #[arg(long)]
     pub tangents: bool,
-    /// Write the model's vertex and the chart of each texture coordinate
+    /// Texels for a unit of length, and as many pages as that takes
+    #[arg(long, value_name = "TEXELS", value_parser = above_zero)]
+    pub density: Option<f64>,
+    /// Write the model's vertex, the chart and the page of each texture coordinate
     #[arg(long, value_name = "X.csv")]
     pub xref: Option<FileName>,
     #[command(flatten)]
@@ -89,9 +97,14 @@ impl TextureArgs {
             margin: self.margin,
             page: self.page,
             fill: self.fill,
+            density: self.density.unwrap_or(0.0),
             threads: self.common.threads,
         }
     }
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0, "must be a number above 0")
 }
 
 fn above_one(text: &str) -> Result<f64, String> {

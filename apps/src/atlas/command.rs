@@ -11,7 +11,7 @@ use crate::output::{check_extension, check_outputs, format_of};
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use ricci::control::Stage;
-use ricci::mesh::io::{self, SceneFile};
+use ricci::mesh::io::{self, Format, SceneFile};
 use ricci::texture::{texture_atlas, texture_atlas_of_parts};
 
 impl Job for TextureArgs {
@@ -27,9 +27,11 @@ impl Job for TextureArgs {
         check_extension("--picture", picture, &["png", "svg"])?;
         let files = [Some(&*self.out), self.xref.as_deref(), picture, self.common.report.as_deref()];
         check_outputs(&[Some(&self.mesh)], &files)?;
-        if !self.is_scene() && (self.texcoord.is_some() || self.tangents) {
-            let message = "--texcoord and --tangents: for a scene, from .glb or .gltf to .glb";
-            return Err(Failure::Usage(message.into()));
+        if self.texcoord.is_some() && !self.is_scene() {
+            return Err(Failure::Usage("--texcoord: for a scene, from .glb or .gltf to .glb".into()));
+        }
+        if self.tangents && format_of(&self.out)? != Format::Glb {
+            return Err(Failure::Usage("--tangents: .glb files alone have tangents".into()));
         }
         Ok(())
     }
@@ -76,7 +78,10 @@ impl Job for TextureArgs {
             let report = run.outputs.add_named(&self.out, |path| scene.file.write(path, uv, &options))?;
             scene.keep(report);
         } else {
-            let left_out = run.outputs.add_named(&self.out, |path| io::write_as(path, format, soup))?;
+            let left_out = run.outputs.add_named(&self.out, |path| match self.tangents {
+                true => io::write_glb_with_tangents(path, soup),
+                false => io::write_as(path, format, soup),
+            })?;
             run.outputs.leave_out(left_out);
             run.outputs.leave_out(stays_behind(soup.attributes.labels.as_ref(), &self.mesh, &self.out));
         }

@@ -7,10 +7,10 @@ use crate::picture::{self, Picture, ShownLayout, ShownSurface, TextureChoice};
 use std::collections::{HashMap, HashSet};
 use std::io::Write;
 
-/// A row for each texture coordinate of an OBJ file: the vertex of the model at which it is, and its chart. A coordinate at which
+/// A row for each texture coordinate of an OBJ file: the vertex of the model at which it is, its chart and its page. A coordinate at which
 /// several vertices are, as between faces that the model does not join, has a row for each.
 pub fn write_origins(out: &mut impl Write, outcome: &TextureOutcome) -> std::io::Result<()> {
-    writeln!(out, "texcoord,vertex,chart")?;
+    writeln!(out, "texcoord,vertex,chart,page")?;
     let atlas = &outcome.atlas;
     let mut number: HashMap<[u64; 2], usize> = HashMap::new();
     let mut known: HashSet<(usize, u32)> = HashSet::new();
@@ -19,7 +19,7 @@ pub fn write_origins(out: &mut impl Write, outcome: &TextureOutcome) -> std::io:
             let next = number.len();
             let own = *number.entry(uv.map(f64::to_bits)).or_insert(next);
             if known.insert((own, *v)) {
-                writeln!(out, "{own},{v},{}", atlas.chart[f] as i32)?;
+                writeln!(out, "{own},{v},{},{}", atlas.chart[f] as i32, atlas.page(f))?;
             }
         }
     }
@@ -32,7 +32,12 @@ pub fn draw(outcome: &TextureOutcome, args: &TextureArgs) -> Result<Vec<u8>, Fai
     let style = args.picture.style(TextureChoice::Checker, args.common.threads);
     let Borders { on_page, on_model } = Borders::of(outcome);
     let ends = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let frame = [0, 1, 2, 3].map(|k| (ends[k], ends[(k + 1) % 4]));
+    let tile = |page: usize| [page % 10, page / 10].map(|x| x as f64);
+    let sides = |page: usize| {
+        let corner = move |k: usize| [0, 1].map(|c| ends[k % 4][c] + tile(page)[c]);
+        [0, 1, 2, 3].map(|k| (corner(k), corner(k + 1)))
+    };
+    let frame: Vec<_> = (0..atlas.pages).flat_map(sides).collect();
     let flat = ShownLayout {
         corner_uv: &atlas.corner_uv,
         boundary: &on_page,

@@ -64,6 +64,7 @@ impl JobOutcome for TextureOutcome {
             .with("seam_length", quality.seam_length)
             .with("fill", quality.fill)
             .with("texel_density", quality.texel_density)
+            .with("pages", atlas.pages)
             .with("left_out", run.outputs.left_out())
             .missing(run)
     }
@@ -98,9 +99,10 @@ impl JobOutcome for TextureOutcome {
             text += "replaced the texture coordinates of the model\n";
         }
         text += &format!(
-            "atlas    {}, {:.1} % of the page filled, seams {:.3} roots of the area long\n",
+            "atlas    {}, {:.1} % of {} filled, seams {:.3} roots of the area long\n",
             count(atlas.charts, "chart", "charts"),
             100.0 * quality.fill,
+            if atlas.pages == 1 { "the page".into() } else { format!("{} pages", atlas.pages) },
             quality.seam_length
         );
         text += &format!(

@@ -71,7 +71,7 @@ class SceneFile(Handle):
         progress: Progress = None,
         *,
         texcoord: int | None = None,
-        tangents: bool | None = None,
+        tangents: bool = False,
     ) -> SceneReport:
         """Write the scene with its atlas as .glb; nodes, materials and names are as they were.
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, doubles, filled, pointer, summary
+from ricci._call import CONTROL, Doubles, Handle, Indices, call, doubles, filled, path_bytes, pointer, summary
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -41,6 +41,8 @@ class TextureOptions(TypedDict, total=False):
         texels along a side of the page, a power of two; 1024.
     margin : int
         least distance of two charts in texels; 2. Mipmaps need more.
+    density : float
+        texels for a unit of length on the model, and as many pages as that takes, up to 160; by default one page, filled as far as it goes.
     threads : int
         one for each core.
     """
@@ -49,11 +51,12 @@ class TextureOptions(TypedDict, total=False):
     fill: float
     page: int
     margin: int
+    density: float
     threads: int
 
 
 _TEXTURE: dict[str, Write] = {
-    **dict.fromkeys(("stretch", "page", "threads"), above_zero),
+    **dict.fromkeys(("stretch", "page", "density", "threads"), above_zero),
     **dict.fromkeys(("fill", "margin"), or_none),
 }
 
@@ -108,13 +111,21 @@ class TextureAtlas(Handle):
 
     @cached_property
     def uv(self) -> Doubles:
-        """m x 3 x 2 texture coordinates of the corners of the model's faces, from 0 to 1; 0 for faces without a place."""
+        """m x 3 x 2 texture coordinates of the corners of the model's faces; 0 for faces without a place.
+
+        They are from 0 to 1; of several pages they are in the tiles of UDIM, page p with u from p % 10 and v from p // 10.
+        """
         return frozen(doubles(lib.ricci_texture_atlas_uv, self, shape=(self.summary.n_faces, 3, 2)))
 
     @cached_property
     def charts(self) -> Indices:
         """The chart of every face of the model, -1 without a place; charts with more area come first."""
         return frozen(filled(lib.ricci_texture_atlas_charts, self, out=np.empty(self.summary.n_faces, np.uint32)))
+
+    @cached_property
+    def pages(self) -> Indices:
+        """The page of every face of the model; 0 without a place."""
+        return frozen(filled(lib.ricci_texture_atlas_pages, self, out=np.empty(self.summary.n_faces, np.uint32)))
 
     @cached_property
     def placeless(self) -> Indices:
@@ -149,9 +160,22 @@ class TextureAtlas(Handle):
         """The model with these texture coordinates in place of its own; its other attributes are as they were."""
         return Soup._made(lib.ricci_texture_atlas_soup, self)
 
-    def write(self, path: str | os.PathLike[str], progress: Progress = None) -> None:
-        """Write the model with these texture coordinates: .obj, .ply and .glb have seams."""
-        self.soup().write(path, progress)
+    def write(self, path: str | os.PathLike[str], progress: Progress = None, *, tangents: bool = False) -> None:
+        """Write the model with these texture coordinates: .obj, .ply and .glb have seams.
+
+        Parameters
+        ----------
+        path : str | os.PathLike[str]
+            the file's name.
+        progress : Progress
+            a `Control` or a callback.
+        tangents : bool
+            True to write .glb with tangents; vertices without normals get averages of those of their faces.
+        """
+        if tangents:
+            call(lib.ricci_soup_write_with_tangents, self.soup(), path_bytes(path), progress=progress)
+        else:
+            self.soup().write(path, progress)
 
     def _list(self, which: int, n: int) -> Indices:
         return frozen(filled(lib.ricci_texture_atlas_faces, self, which, out=np.empty(n, np.uint32)))
@@ -178,6 +202,7 @@ def texture_atlas(
     fill: float | None = None,
     page: int | None = None,
     margin: int | None = None,
+    density: float | None = None,
     threads: int | None = None,
 ) -> TextureAtlas:
     """A texture atlas of a model, whatever its defects: every face keeps its number and gets a place on a square page.
@@ -199,7 +224,7 @@ def texture_atlas(
     ArgumentError
         an option outside its range.
     LayoutError
-        no face of the model has a place, or the page has no room.
+        no face of the model has a place, the page has no room, a face is larger than a page, or more than 160 pages are needed.
 
     Examples
     --------

@@ -86,6 +86,10 @@ pub use vtk::{parse_vtk, write_vtk};
 pub use vtk::{parse_vtp, write_vtp};
 
 use crate::error::Result;
+#[cfg(feature = "gltf")]
+use crate::mesh::tangents::vertex_normals;
+#[cfg(feature = "gltf")]
+use soup::in_range;
 use std::path::Path;
 
 /// Reads a mesh file: .obj, .off, .ply, .stl, .vtk, .mz3, surfaces of FreeSurfer; with the cargo feature `gltf` .glb and .gltf, with `gifti` .gii
@@ -137,6 +141,35 @@ fn write_packed(path: &Path, format: Format, soup: &Soup) -> Result<Vec<String>>
 #[cfg(feature = "gltf")]
 pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Result<()> {
     textured::with_textured(soup, |data| write_glb(path, data, Some(texture))).map(drop)
+}
+
+/// Writes binary glTF with tangents of the texture coordinates, [`crate::mesh::tangents`]. Vertices without normals get those of
+/// [`crate::mesh::tangents::vertex_normals`], which tangents need. Returns what was left out, as [`write_as`].
+///
+/// # Errors
+///
+/// Those of [`write_as`]; [`crate::Error::Argument`] for a mesh without texture coordinates.
+#[cfg(feature = "gltf")]
+pub fn write_glb_with_tangents(path: &Path, soup: &Soup) -> Result<Vec<String>> {
+    let attributes = &soup.attributes;
+    let Some(uv) = &attributes.uv else {
+        return Err(crate::Error::argument(
+            "texture coordinates",
+            "none",
+            "tangents are those of coordinates",
+        ));
+    };
+    let has_normals = attributes.normals.is_some() || attributes.corner_normals.is_some();
+    let mut with_normals = soup.clone();
+    if !has_normals {
+        in_range("vertex", &soup.faces, soup.positions.len())?;
+        with_normals.attributes.normals = Some(vertex_normals(&soup.positions, &soup.faces));
+    }
+    let left_out = write_as(path, Format::Glb, &with_normals)?;
+    // One node, one mesh, and the faces in their order.
+    let scene = SceneFile::of_bytes(content::content(path)?, &path.display().to_string())?;
+    scene.write(path, uv, &SceneOptions { texcoord: Some(0), tangents: true })?;
+    Ok(left_out)
 }
 
 /// Writes a mesh file, atomically, with the attributes that the format has: text with the fewest digits that read back, PLY binary, so

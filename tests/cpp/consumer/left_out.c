@@ -3,6 +3,7 @@
 #include <ricci/bicubic.h>
 #include <ricci/gifti.h>
 #include <ricci/quads.h>
+#include <ricci/scene.h>
 #include <ricci/shapes.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,6 +23,7 @@ int main(void) {
     ricci_spline *spline = NULL;
     ricci_seamless *seamless = NULL;
     ricci_gifti_notes *notes = NULL;
+    ricci_scene *scene = NULL;
     MUST(ricci_init(&shape, sizeof shape) == RICCI_OK);
     shape.shape = RICCI_SHAPE_TORUS, shape.n = 16, shape.m = 8, shape.a = 2, shape.b = 1;
     MUST(ricci_make(&shape, &mesh) == RICCI_OK);
@@ -31,6 +33,7 @@ int main(void) {
     MUST(strstr(ricci_last_error(), "splines were left out") != NULL);
     MUST(ricci_seamless_new(mesh, NULL, NULL, &seamless) == RICCI_LEFT_OUT && !seamless);
     MUST(ricci_gifti_notes_new(&notes) == RICCI_LEFT_OUT && !notes);
+    MUST(ricci_scene_read("left_out.glb", &scene) == RICCI_UNKNOWN_FORMAT && !scene);
     MUST(ricci_mesh_write(mesh, NULL, "left_out.glb") == RICCI_UNKNOWN_FORMAT);
     MUST(ricci_mesh_write(mesh, NULL, "left_out.obj") == RICCI_OK);
     ricci_spline_free(spline);

@@ -77,6 +77,26 @@ static void keeps_the_scene(const ricci_soup *soup) {
     ricci_scene_free(again), ricci_scene_free(scene);
 }
 
+/* A list without normals gets them with its tangents; one without coordinates has none. */
+static void writes_tangents(void) {
+    ricci_soup *bare = NULL, *textured = NULL, *back = NULL;
+    ricci_soup_summary s;
+    ricci_texture_options page;
+    ricci_texture_atlas *atlas = NULL;
+    OK(ricci_soup_from_arrays(positions, 0, VERTICES, faces, FACES, &bare));
+    FAILS(ricci_soup_write_with_tangents(bare, "tangents.glb"), RICCI_ARGUMENT, "tangents");
+    INIT(page);
+    page.page = 64, page.fill = -1, page.threads = 1;
+    OK(ricci_texture_atlas_new(bare, &page, NULL, &atlas));
+    OK(ricci_texture_atlas_soup(atlas, &textured));
+    OK(ricci_soup_write_with_tangents(textured, "tangents.glb"));
+    OK(ricci_soup_read("tangents.glb", &back));
+    OK(ricci_soup_summarise(back, &s, sizeof s));
+    CHECK(s.n_faces == FACES && s.n_uv == FACES && s.n_normals + s.n_corner_normals > 0);
+    check_places(bare, back);
+    ricci_soup_free(back), ricci_soup_free(textured), ricci_texture_atlas_free(atlas), ricci_soup_free(bare);
+}
+
 static void refuses(const ricci_soup *soup) {
     ricci_scene *scene = NULL;
     ricci_soup *less = NULL;
@@ -100,6 +120,7 @@ static void refuses(const ricci_soup *soup) {
 int main(void) {
     ricci_soup *soup = cube();
     keeps_the_scene(soup);
+    writes_tangents();
     refuses(soup);
     ricci_soup_free(soup);
     return 0;

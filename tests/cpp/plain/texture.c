@@ -102,6 +102,41 @@ static void makes_an_atlas(const ricci_soup *soup) {
     ricci_soup_free(back), ricci_soup_free(textured);
 }
 
+/* Two squares of side 1 beside each other at 40 texels for a unit do not fit on a page of 64, nor do both
+ * apart. */
+static void fills_pages(void) {
+    static const double plate[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    static const uint32_t halves[] = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+    ricci_soup *soup = NULL;
+    ricci_texture_atlas *atlas = NULL;
+    ricci_texture_options options;
+    ricci_texture_atlas_summary s;
+    double uv[24];
+    uint32_t pages[4];
+    OK(ricci_soup_from_arrays(plate, 0, 6, halves, 4, &soup));
+    INIT(options);
+    options.page = 64, options.density = 25, options.threads = 1;
+    OK(ricci_texture_atlas_new(soup, &options, NULL, &atlas));
+    OK(ricci_texture_atlas_summarise(atlas, &s, sizeof s));
+    CHECK(s.n_pages == 1 && s.n_charts == 1 && fabs(s.texel_density - 25) < 1e-3);
+    ricci_texture_atlas_free(atlas);
+    options.density = 40;
+    OK(ricci_texture_atlas_new(soup, &options, NULL, &atlas));
+    OK(ricci_texture_atlas_summarise(atlas, &s, sizeof s));
+    OK(ricci_texture_atlas_uv(atlas, uv, 24));
+    OK(ricci_texture_atlas_pages(atlas, pages, 4));
+    CHECK(s.n_pages == 2 && s.n_charts > 1 && fabs(s.texel_density - 40) < 1e-3);
+    for (size_t k = 0; k < 24; k += 2) {
+        CHECK(floor(uv[k]) == pages[k / 6] && floor(uv[k + 1]) == 0);
+        CHECK(ldexp(uv[k], 20) == floor(ldexp(uv[k], 20)));
+    }
+    FAILS(ricci_texture_atlas_pages(atlas, pages, 3), RICCI_BUFFER_TOO_SMALL, "pages");
+    ricci_texture_atlas_free(atlas), atlas = NULL;
+    options.density = 200;
+    FAILS(ricci_texture_atlas_new(soup, &options, NULL, &atlas), RICCI_LAYOUT, "larger than a page");
+    ricci_soup_free(soup);
+}
+
 static void refuses(const ricci_soup *soup) {
     ricci_texture_atlas *none = NULL;
     ricci_soup *nothing = NULL, *list = NULL;
@@ -115,6 +150,8 @@ static void refuses(const ricci_soup *soup) {
     FAILS(ricci_texture_atlas_new(soup, &options, NULL, &none), RICCI_ARGUMENT, "stretch");
     options.stretch = 0, options.fill = NAN;
     FAILS(ricci_texture_atlas_new(soup, &options, NULL, &none), RICCI_ARGUMENT, "fill");
+    options.fill = 0, options.density = -1;
+    FAILS(ricci_texture_atlas_new(soup, &options, NULL, &none), RICCI_ARGUMENT, "density");
     FAILS(ricci_texture_atlas_new(NULL, NULL, NULL, &none), RICCI_NULL_POINTER, "soup");
     FAILS(ricci_texture_atlas_new(soup, NULL, NULL, NULL), RICCI_NULL_POINTER, "texture atlas");
     OK(ricci_soup_from_polygons(positions, 0, VERTICES, corners + 27, starts, 0, &nothing));
@@ -136,6 +173,7 @@ static void refuses(const ricci_soup *soup) {
 int main(void) {
     ricci_soup *soup = model();
     makes_an_atlas(soup);
+    fills_pages();
     refuses(soup);
     ricci_soup_free(soup);
     return 0;

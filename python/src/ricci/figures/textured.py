@@ -51,6 +51,8 @@ class TextureAtlasSummary:
         the share of the page that faces fill.
     texel_density : float
         texels per unit of length on the model.
+    n_pages : int
+        pages; 1 unless a density is asked for.
     """
 
     n_faces: int
@@ -73,6 +75,7 @@ class TextureAtlasSummary:
     seam_length: float
     fill: float
     texel_density: float
+    n_pages: int
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,9 @@ use std::collections::BTreeSet;
 /// Compression of buffer views, of which the plain form is written.
 const COMPRESSED_VIEWS: &str = "EXT_meshopt_compression";
 
+/// The number of the first added accessor until the document is written: no file has as many.
+const FIRST_ADDED: usize = 1 << 31;
+
 /// The use of a buffer view.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum ViewTarget {
@@ -23,7 +26,7 @@ pub(super) enum ViewTarget {
 /// A document with the accessors and pictures that are added to it.
 pub(super) struct KeptDocument {
     pub document: Value,
-    /// The number of accessors that it had; those that are added have the numbers after them until it is written.
+    /// The number of accessors that it had.
     n_accessors: usize,
     added: Vec<AddedAccessor>,
     /// The accessors that are replaced where they were named.
@@ -80,7 +83,7 @@ impl KeptDocument {
     /// Adds an accessor whose entry lacks its buffer view; returns its number.
     pub fn add(&mut self, entry: Value, elements: PackedElements, target: ViewTarget) -> usize {
         self.added.push(AddedAccessor { entry, elements, target });
-        self.n_accessors + self.added.len() - 1
+        FIRST_ADDED + self.added.len() - 1
     }
 
     /// Marks an accessor that is no longer named where it was.
@@ -118,7 +121,7 @@ impl KeptDocument {
         let numbers: Vec<usize> = (0..self.added.len()).map(number).collect();
         each_primitive(&mut self.document, |primitive| {
             each_accessor(primitive, |value| {
-                let new = value.as_u64().and_then(|k| (k as usize).checked_sub(n));
+                let new = value.as_u64().and_then(|k| (k as usize).checked_sub(FIRST_ADDED));
                 if let Some(number) = new.and_then(|k| numbers.get(k)) {
                     *value = json!(number);
                 }

@@ -14,12 +14,14 @@ mod scene;
 mod scene_edit;
 mod scene_file;
 mod scene_model;
+mod scene_report;
 mod scene_split;
 mod seams;
 mod texture_sets;
 mod write;
 
-pub use scene_file::{SceneFile, SceneOptions, SceneReport};
+pub use scene_file::SceneFile;
+pub use scene_report::{SceneOptions, SceneReport};
 pub use write::{Texture, Wrap, write_glb};
 
 use super::Soup;

@@ -6,8 +6,8 @@ use super::accessor::{GltfFile, PackedElements};
 use super::document::ElementShape;
 use super::document_walk::each_attribute_list;
 use super::kept_document::{KeptDocument, ViewTarget};
-use super::scene_file::SceneReport;
 use super::scene_model::{GroupPrimitive, SceneModel, VertexGroup};
+use super::scene_report::SceneReport;
 use super::scene_split::GroupSplit;
 use super::texture_sets::{MaterialTextures, set_name};
 use crate::error::Result;
@@ -83,7 +83,9 @@ impl SceneEdit<'_> {
         self.report.n_vertices += group.n;
         self.report.n_split_vertices += n;
         let mut own = GroupAccessors { split, texcoords, tangents: None, copies: BTreeMap::new() };
-        for (k, primitive) in group.primitives.iter().enumerate() {
+        // A primitive without a face keeps its vertices: it draws nothing with them.
+        let with_faces = group.primitives.iter().enumerate().filter(|(_, p)| !p.faces.is_empty());
+        for (k, primitive) in with_faces {
             let mut text = self.kept.document["meshes"][group.mesh]["primitives"][primitive.index].take();
             let edited = self.attributes(&mut text, group, primitive, &mut own);
             self.indices(&mut text, primitive, &own.split, k);
@@ -193,7 +195,7 @@ impl SceneEdit<'_> {
         let n_before = n - split.further.len();
         let is_same = faces.as_flattened().iter().all(|v| (*v as usize) < n_before);
         let is_counted = text.get("indices").is_some() || split.further.is_empty();
-        if primitive.is_list && is_same && is_counted || faces.is_empty() {
+        if primitive.is_list && is_same && is_counted {
             return;
         }
         let corners = faces.as_flattened();

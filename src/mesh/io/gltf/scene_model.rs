@@ -57,67 +57,68 @@ struct MeshPlace {
 }
 
 /// The model of a file; `document` is the same document as plain JSON.
-pub(super) fn model(file: &GltfFile<'_>, document: &Value, budget: &mut Budget) -> Result<SceneModel> {
+pub(super) fn model(file: &GltfFile<'_>, document: &Value, budget: Budget) -> Result<SceneModel> {
     let places = places(file)?;
     let shared = places.iter().filter(|place| place.nodes > 1).count();
-    let mut model = SceneModel { shared, ..SceneModel::default() };
+    let mut reader = SceneReader { file, budget, model: SceneModel { shared, ..SceneModel::default() } };
     for (number, (mesh, place)) in file.document.meshes.iter().zip(&places).enumerate() {
         for (index, primitive) in mesh.primitives.iter().enumerate() {
             let text = &document["meshes"][number]["primitives"][index];
             let key = format!("{} {}", text["attributes"], text["targets"]);
-            if let Some(group) = model.group(file, budget, &key, (number, primitive), &place.map)? {
-                model.faces(file, budget, group, (index, primitive))?;
+            if let Some(group) = reader.group(number, &key, primitive, &place.map)? {
+                reader.faces(group, index, primitive)?;
             }
         }
     }
-    Ok(model)
+    Ok(reader.model)
 }
 
-impl SceneModel {
+/// A model while it is read.
+struct SceneReader<'a> {
+    file: &'a GltfFile<'a>,
+    budget: Budget,
+    model: SceneModel,
+}
+
+impl SceneReader<'_> {
     /// The group of the vertices of a primitive of a mesh, whose positions are added if they are new; none for one without faces.
     fn group(
         &mut self,
-        file: &GltfFile<'_>,
-        budget: &mut Budget,
+        mesh: usize,
         key: &str,
-        (mesh, primitive): (usize, &Primitive),
+        primitive: &Primitive,
         map: &Affine,
     ) -> Result<Option<usize>> {
         let has_faces = (TRIANGLES..=FAN).contains(&primitive.mode.unwrap_or(TRIANGLES));
         let Some(position) = primitive.attributes.position.filter(|_| has_faces) else { return Ok(None) };
-        let known = self.groups.iter().rposition(|group| group.mesh == mesh && group.key == key);
+        let model = &mut self.model;
+        let known = model.groups.iter().rposition(|group| group.mesh == mesh && group.key == key);
         if known.is_some() {
             return Ok(known);
         }
-        let accessor = file.accessor(position, "POSITION", &[ElementShape::Vec3])?;
-        let first = self.soup.positions.len();
-        let end = first.saturating_add(accessor.count);
+        let accessor = self.file.accessor(position, "POSITION", &[ElementShape::Vec3])?;
+        let (first, n) = (model.soup.positions.len(), accessor.count);
+        let end = first.saturating_add(n);
         if end > u32::MAX as usize {
             return Err(Error::TooLarge { what: "vertices", count: end });
         }
-        let positions: Vec<Point> = accessor.numbers(0.0, budget, file)?;
-        self.soup.positions.extend(positions.into_iter().map(|p| map.apply(p)));
-        self.mesh.resize(end, mesh as u32);
-        let n = accessor.count;
-        self.groups.push(VertexGroup { mesh, first, n, position, primitives: Vec::new(), key: key.into() });
-        Ok(Some(self.groups.len() - 1))
+        let positions: Vec<Point> = accessor.numbers(0.0, &mut self.budget, self.file)?;
+        model.soup.positions.extend(positions.into_iter().map(|p| map.apply(p)));
+        model.mesh.resize(end, mesh as u32);
+        model.groups.push(VertexGroup { mesh, first, n, position, primitives: Vec::new(), key: key.into() });
+        Ok(Some(model.groups.len() - 1))
     }
 
     /// Adds the faces of a primitive to its group.
-    fn faces(
-        &mut self,
-        file: &GltfFile<'_>,
-        budget: &mut Budget,
-        group: usize,
-        (index, primitive): (usize, &Primitive),
-    ) -> Result<()> {
-        let VertexGroup { first, n, primitives, .. } = &mut self.groups[group];
-        let start = self.soup.faces.len();
-        let own = faces(primitive, *n, budget, file)?;
-        self.soup.faces.extend(own.into_iter().map(|face| face.map(|v| *first as u32 + v)));
+    fn faces(&mut self, group: usize, index: usize, primitive: &Primitive) -> Result<()> {
+        let SceneModel { soup, groups, .. } = &mut self.model;
+        let VertexGroup { first, n, primitives, .. } = &mut groups[group];
+        let start = soup.faces.len();
+        let own = faces(primitive, *n, &mut self.budget, self.file)?;
+        soup.faces.extend(own.into_iter().map(|face| face.map(|v| *first as u32 + v)));
         primitives.push(GroupPrimitive {
             index,
-            faces: start..self.soup.faces.len(),
+            faces: start..soup.faces.len(),
             is_list: primitive.mode.unwrap_or(TRIANGLES) == TRIANGLES,
             material: primitive.material.map(|k| k as usize),
         });
