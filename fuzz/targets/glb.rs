@@ -9,7 +9,8 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     let Ok(scene) = SceneFile::of_bytes(data.to_vec(), "x.glb") else { return };
     let soup = scene.soup();
     // Each face has coordinates of its own, so that every vertex is repeated.
-    let place = |f: usize| [0.0, 0.25, 0.5].map(|x| [x + (f % 16) as f64 / 64.0, (f / 16 % 16) as f64 / 16.0]);
+    let place =
+        |f: usize| [0.0, 0.25, 0.5].map(|x| [x + (f % 16) as f64 / 64.0, (f / 16 % 16) as f64 / 16.0]);
     let uv: Vec<[[f64; 2]; 3]> = (0..soup.faces.len()).map(place).collect();
     let folder = tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).expect("a folder");
     let path = folder.path().join("x.glb");

@@ -167,10 +167,14 @@ impl Shelf {
         let folder = tempfile::tempdir().expect("a folder for a scene");
         let path = folder.path().join("scene.glb");
         let path = std::ffi::CString::new(path.to_string_lossy().as_ref()).expect("a path has no zero");
-        let plain = made(|p| unsafe { ricci_soup_from_arrays(positions.as_ptr(), 0, 4, faces.as_ptr(), 3, p) });
+        let plain =
+            made(|p| unsafe { ricci_soup_from_arrays(positions.as_ptr(), 0, 4, faces.as_ptr(), 3, p) });
         assert_eq!(unsafe { ricci_soup_write(plain, path.as_ptr()) }, 0);
         let scene = made(|p| unsafe { ricci_scene_read(path.as_ptr(), p) });
-        self.put("ricci_texture_atlas", made(|p| unsafe { ricci_scene_texture_atlas(scene, &options, null(), p) }));
+        self.put(
+            "ricci_texture_atlas",
+            made(|p| unsafe { ricci_scene_texture_atlas(scene, &options, null(), p) }),
+        );
         self.put("ricci_scene", scene);
         let seed = |name: &str| {
             let path = format!("{}/seeds/gifti/{name}", env!("CARGO_MANIFEST_DIR"));
