@@ -255,6 +255,31 @@ mod tests {
     }
 
     #[test]
+    fn blocks_are_eliminated_in_an_order_of_their_own_pattern() {
+        let (blocks, of_blocks) = grid(7);
+        let (pattern, mut cholesky) = Cholesky::analyse_blocks(&blocks, 3).unwrap();
+        // A block is its number on the diagonal, and 0.1 of it elsewhere.
+        let mut pairs = Vec::new();
+        let mut entries = Vec::new();
+        for (i, j, x) in (Symmetric { pattern: &blocks, values: &of_blocks }).entries() {
+            for (c, d) in (0..3).flat_map(|c| (0..3).map(move |d| (c, d))).filter(|(c, d)| i != j || c >= d) {
+                pairs.push(((3 * i + c) as u32, (3 * j + d) as u32));
+                entries.push((3 * i + c, 3 * j + d, if c == d { x } else { 0.1 * x }));
+            }
+        }
+        assert_eq!(pattern, Pattern::new(3 * blocks.size(), &pairs).unwrap());
+        let mut values = vec![0.0; pattern.entries()];
+        entries.iter().for_each(|&(i, j, x)| values[pattern.position(i, j).unwrap()] = x);
+        let matrix = Symmetric { pattern: &pattern, values: &values };
+        cholesky.factor(matrix).unwrap();
+        let right: Vec<f64> = (0..pattern.size()).map(|i| (i as f64).sin()).collect();
+        let (mut x, mut residual) = (right.clone(), right.clone());
+        cholesky.solve(&mut x);
+        matrix.residual(&x, &right, &mut residual);
+        assert!(residual.iter().all(|r| r.abs() < 1e-13), "{residual:?}");
+    }
+
+    #[test]
     fn solution_leaves_no_residual() {
         for k in [0, 1, 7, 40] {
             let (pattern, values) = grid(k);

@@ -47,7 +47,7 @@ pub struct ScanArgs {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// The cones, as for `ricci seamless`: field, auto:N, or a table vertex,valence [default: without --features several numbers of placed
-    /// cones, then those of the field, until a fit is within the tolerance; short fits tell which are fitted to the end]
+    /// cones, then those of the field, until a fit is within the tolerance; those whose fits fold at first come last]
     #[arg(long, value_name = "CONES")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cones: Option<ConesChoice>,

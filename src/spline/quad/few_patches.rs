@@ -1,8 +1,8 @@
-//! Splines of few patches: over the coarsest layouts of seamless metrics with several choices of cones, of which short fits tell the most
-//! promising.
+//! Splines of few patches: over the coarsest layouts of seamless metrics with several choices of cones, of which the first rounds of the fits tell
+//! the most promising.
 
 use super::fit::QuadFit;
-use super::over_quads::{LayoutFitOptions, fit_in_rounds, fit_quad_layout};
+use super::over_quads::{LayoutFitOptions, fit_unless_folding};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::EdgeId;
@@ -14,8 +14,8 @@ use crate::seamless::{Seamless, SeamlessCones, SeamlessOptions, placed_cones, se
 const PLACED: [usize; 2] = [24, 40];
 /// Layouts with more patches are tried only where there is no other: where placed cones lead to that many, lines wind around thin limbs.
 const MOST_PATCHES: usize = 150;
-/// Rounds of the short fits: with one span in each direction, then with two.
-const SHORT_ROUNDS: usize = 2;
+/// Rounds after which a fit that has folded patches still waits until other choices of cones are tried: with one span in each direction, then two.
+const FOLDING_ROUNDS: usize = 2;
 /// Most choices of cones with which fits are made to the end.
 const MOST_WHOLE: usize = 2;
 /// The factor by which a layout may have more patches than the coarsest one with the same cones, where that does not suffice.
@@ -27,7 +27,7 @@ const HOPELESS: f64 = 3.0;
 #[derive(Debug, Clone, Default)]
 pub struct FewPatchesOptions {
     /// The cones, which become corners of patches. None: on a closed surface without features placed ones of several numbers
-    /// ([`placed_cones`]), then those of the field, of which short fits tell the most promising.
+    /// ([`placed_cones`]), then those of the field.
     pub cones: Option<SeamlessCones>,
     /// Edges that become sides of patches, across which normals may jump. Default none.
     pub features: Vec<EdgeId>,
@@ -46,18 +46,18 @@ pub struct LayoutFit {
 }
 
 /// Fits a spline with few patches to a surface: over the coarsest layout of a seamless metric and, where that is not within three times the tolerance,
-/// one with up to twice as many patches. Of several choices of cones the first whose short fit folds no patch is fitted to the end, then
-/// those whose short fits fold the fewest, two at most in all. The first fit within the tolerance, or else that with the fewest patches
+/// one with up to twice as many patches. Of several choices of cones those come last whose fits have folded patches after two rounds, those with
+/// the fewest first; two choices at most are fitted to the end. The first fit within the tolerance, or else that with the fewest patches
 /// folded, then the least distance.
 ///
 /// # Errors
-/// Those of [`seamless`], [`quad_layout`] and [`fit_quad_layout`] with the last of the cones.
+/// Those of [`seamless`], [`quad_layout`] and [`super::fit_quad_layout`] with the last of the cones.
 pub fn fit_few_patches(
     surface: &Surface,
     options: &FewPatchesOptions,
     control: &Control,
 ) -> Result<LayoutFit> {
-    let mut search = FewPatchesSearch { surface, options, whole: 0, best: None };
+    let mut search = FewPatchesSearch { surface, options, best: None };
     // Instrumented builds make one attempt.
     let has_choice = !cfg!(fuzzing)
         && options.cones.is_none()
@@ -68,7 +68,7 @@ pub fn fit_few_patches(
     } else {
         let cones = options.cones.clone().unwrap_or_default();
         let candidate = search.candidate(cones, &control.part(0.0, 0.1))?;
-        search.is_found_over(candidate, &control.part(0.1, 0.8))?
+        search.fit_over(&candidate, usize::MAX, &control.part(0.1, 0.8))? == FitEnd::Found
     };
     if !is_found {
         search.refine(&control.part(0.8, 1.0))?;
@@ -76,7 +76,19 @@ pub fn fit_few_patches(
     search.best.ok_or_else(|| Error::Layout("no layout of the surface was found".into()))
 }
 
+/// How a fit over a layout ended.
+#[derive(PartialEq)]
+enum FitEnd {
+    /// Within the tolerance.
+    Found,
+    /// Not within it, without folded patches.
+    Missed,
+    /// With this many folded patches.
+    Folded(usize),
+}
+
 /// A layout over which a fit can be made.
+#[derive(Clone)]
 struct LayoutCandidate {
     metric: Seamless,
     layout: QuadLayout,
@@ -86,8 +98,6 @@ struct LayoutCandidate {
 struct FewPatchesSearch<'a> {
     surface: &'a Surface,
     options: &'a FewPatchesOptions,
-    /// The number of fits that were made to the end.
-    whole: usize,
     best: Option<LayoutFit>,
 }
 
@@ -97,35 +107,34 @@ impl FewPatchesSearch<'_> {
         let choices = PLACED.map(SeamlessCones::Auto).into_iter().chain([SeamlessCones::Field]);
         let share = 1.0 / (PLACED.len() + 2) as f64;
         let part = |k: usize| control.part(k as f64 * share, (k + 1) as f64 * share);
-        let (mut folding, mut fine, mut last_error) = (Vec::new(), None, None);
+        let (mut whole, mut folding, mut fine, mut last_error) = (0, Vec::new(), None, None);
         for (k, cones) in choices.enumerate() {
+            if whole == MOST_WHOLE {
+                break;
+            }
             let control = part(k);
             let found = self.candidate(cones, &control.part(0.0, 0.2)).and_then(|candidate| {
                 let is_few = candidate.layout.patches.len() <= MOST_PATCHES;
-                let folded =
-                    if is_few { self.folded_at_first(&candidate, &control.part(0.2, 0.4))? } else { 0 };
-                Ok((candidate, is_few, folded))
+                let fit = || self.fit_over(&candidate, FOLDING_ROUNDS, &control.part(0.2, 1.0));
+                Ok((is_few.then(fit).transpose()?, candidate))
             });
             match found {
-                Ok((candidate, false, _)) => fine = Some(candidate),
-                Ok((candidate, true, 0)) if self.whole < MOST_WHOLE => {
-                    if self.is_found_over(candidate, &control.part(0.4, 1.0))? {
-                        return Ok(true);
-                    }
-                }
-                Ok((candidate, true, folded)) => folding.push((folded, candidate)),
+                Ok((Some(FitEnd::Found), _)) => return Ok(true),
+                Ok((Some(FitEnd::Missed), _)) => whole += 1,
+                Ok((Some(FitEnd::Folded(n)), candidate)) => folding.push((n, candidate)),
+                Ok((None, candidate)) => fine = Some(candidate),
                 Err(Error::Cancelled) => return Err(Error::Cancelled),
                 // There need not be a metric with these cones, nor a layout.
                 Err(error) => last_error = Some(error),
             }
         }
-        folding.sort_by_key(|(folded, _)| *folded);
+        folding.sort_by_key(|(n, _)| *n);
         let mut rest: Vec<LayoutCandidate> = folding.into_iter().map(|(_, candidate)| candidate).collect();
-        if rest.is_empty() && self.whole == 0 {
+        if self.best.is_none() {
             rest.extend(fine);
         }
-        for candidate in rest.into_iter().take(MOST_WHOLE - self.whole) {
-            if self.is_found_over(candidate, &part(PLACED.len() + 1).attempt(self.whole))? {
+        for (k, candidate) in rest.iter().take(MOST_WHOLE - whole).enumerate() {
+            if self.fit_over(candidate, usize::MAX, &part(PLACED.len() + 1).attempt(k))? == FitEnd::Found {
                 return Ok(true);
             }
         }
@@ -133,13 +142,6 @@ impl FewPatchesSearch<'_> {
             Some(error) if self.best.is_none() => Err(error),
             _ => Ok(false),
         }
-    }
-
-    /// The number of patches that a short fit over a layout folds.
-    fn folded_at_first(&self, candidate: &LayoutCandidate, control: &Control) -> Result<usize> {
-        let LayoutCandidate { metric, layout } = candidate;
-        let fit = fit_in_rounds(metric, layout, &self.options.fit, SHORT_ROUNDS, control)?;
-        Ok(fit.folded_patches.len())
     }
 
     /// The coarsest layout with these cones.
@@ -166,22 +168,27 @@ impl FewPatchesSearch<'_> {
         QuadOptions { size, threads: self.options.fit.threads }
     }
 
-    /// Fits over a layout; true where that is within the tolerance.
-    fn is_found_over(
+    /// Fits over a layout, for this many rounds if all of them have folded patches.
+    fn fit_over(
         &mut self,
-        LayoutCandidate { metric, layout }: LayoutCandidate,
+        candidate: &LayoutCandidate,
+        folding_rounds: usize,
         control: &Control,
-    ) -> Result<bool> {
+    ) -> Result<FitEnd> {
         let options = &self.options.fit;
-        self.whole += 1;
-        let fit = fit_quad_layout(&metric, &layout, options, control)?;
-        let n = layout.patches.len();
-        log::debug!("{n} patches: distances up to {:.1e}, {} folded", fit.max(), fit.folded_patches.len());
-        let is_found = options.is_met_by(&fit);
+        let LayoutCandidate { metric, layout } = candidate.clone();
+        let fit = fit_unless_folding(&metric, &layout, options, folding_rounds, control)?;
+        let (n, folded) = (layout.patches.len(), fit.folded_patches.len());
+        log::debug!("{n} patches: distances up to {:.1e}, {folded} folded", fit.max());
+        let end = match folded {
+            _ if options.is_met_by(&fit) => FitEnd::Found,
+            0 => FitEnd::Missed,
+            n => FitEnd::Folded(n),
+        };
         if self.best.as_ref().is_none_or(|best| fit.is_better_than(&best.fit)) {
             self.best = Some(LayoutFit { seamless: metric, layout, fit });
         }
-        Ok(is_found)
+        Ok(end)
     }
 
     /// Fits over a layout with more patches and the same cones, where the best fit so far is not within the tolerance but not hopeless.
@@ -196,7 +203,8 @@ impl FewPatchesSearch<'_> {
         let size = self.sized(QuadSize::AtMost(MORE_PATCHES * n));
         match quad_layout(&metric, &size, &control.part(0.0, 0.2)) {
             Ok(layout) if layout.patches.len() > n => {
-                self.is_found_over(LayoutCandidate { metric, layout }, &control.part(0.2, 1.0)).map(drop)
+                let finer = LayoutCandidate { metric, layout };
+                self.fit_over(&finer, usize::MAX, &control.part(0.2, 1.0)).map(drop)
             }
             // There need not be another layout.
             Ok(_) | Err(Error::Layout(_)) => Ok(()),

@@ -90,18 +90,18 @@ pub fn fit_quad_layout(
     options: &LayoutFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
-    fit_in_rounds(seamless, layout, options, usize::MAX, control)
+    fit_unless_folding(seamless, layout, options, usize::MAX, control)
 }
 
-/// [`fit_quad_layout`] that ends after this many rounds.
+/// [`fit_quad_layout`] that ends after this many rounds if all of them have folded patches.
 ///
 /// # Errors
 /// As there.
-pub(super) fn fit_in_rounds(
+pub(super) fn fit_unless_folding(
     seamless: &Seamless,
     layout: &QuadLayout,
     options: &LayoutFitOptions,
-    most_rounds: usize,
+    folding_rounds: usize,
     control: &Control,
 ) -> Result<QuadFit> {
     let vertices = layout.mesh.positions(&seamless.solution).ok_or_else(no_positions)?;
@@ -110,7 +110,7 @@ pub(super) fn fit_in_rounds(
         let RelaxedQuads { points, target } = RelaxedQuads::new(layout, vertices, &surface, control)?;
         let spans = vec![1; layout.arcs.len()];
         let start = LayoutStart::new(surface, &DividedQuads::of_layout(layout, &points), spans)?;
-        LayoutStart { most_rounds, ..start }.fitted(target, options, control)
+        LayoutStart { folding_rounds, ..start }.fitted(target, options, control)
     })
 }
 
@@ -123,7 +123,8 @@ pub(super) struct LayoutStart<'a> {
     spans: Vec<usize>,
     /// The first step of the first fit.
     first_step: usize,
-    most_rounds: usize,
+    /// Rounds after which fits end that have folded patches still.
+    folding_rounds: usize,
 }
 
 impl<'a> LayoutStart<'a> {
@@ -139,7 +140,7 @@ impl<'a> LayoutStart<'a> {
         let grids = divided.grids()?;
         let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
         let patches = divided.patch_layout()?.with_angles(&angles);
-        Ok(LayoutStart { surface, grids, patches, spans, first_step: 0, most_rounds: usize::MAX })
+        Ok(LayoutStart { surface, grids, patches, spans, first_step: 0, folding_rounds: usize::MAX })
     }
 
     /// The same with points that lie on the surface as those of a spline do: fits begin with little bending.
@@ -190,8 +191,9 @@ impl<'a> LayoutStart<'a> {
             }
             let is_stuck = fruitless > MOST_FRUITLESS;
             // Instrumented builds, in which every round takes minutes, make one.
-            let is_last = round >= self.most_rounds || cfg!(fuzzing);
-            let is_done = options.is_met_by(&fit) || !is_more || is_stuck || is_last;
+            let folds_still = best.as_ref().map_or(folds, |best| best.folded_patches.len().min(folds)) > 0;
+            let is_given_up = folds_still && round >= self.folding_rounds || cfg!(fuzzing);
+            let is_done = options.is_met_by(&fit) || !is_more || is_stuck || is_given_up;
             if folds == 0 && !is_done {
                 target = surface.target(&faces_of(&fit.spline, &target))?;
             }
