@@ -65,8 +65,8 @@ const PLAIN: std::ops::RangeInclusive<f64> = 1e-25..=1e30;
 ///
 /// # Errors
 ///
-/// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
-/// [`Error::Size`], [`Error::TooLarge`] for more than the 4 GB that glTF can count, [`Error::Io`].
+/// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
+/// [`crate::Error::Size`], [`crate::Error::TooLarge`] for more than the 4 GB that glTF can count, [`crate::Error::Io`].
 pub fn write_glb(path: &Path, data: &TexturedMesh<'_>, texture: Option<Texture<'_>>) -> Result<Vec<u32>> {
     data.check()?;
     let split = SplitVertices::new(data);
