@@ -88,7 +88,6 @@ enum FitEnd {
 }
 
 /// A layout over which a fit can be made.
-#[derive(Clone)]
 struct LayoutCandidate {
     metric: Seamless,
     layout: QuadLayout,
@@ -176,8 +175,8 @@ impl FewPatchesSearch<'_> {
         control: &Control,
     ) -> Result<FitEnd> {
         let options = &self.options.fit;
-        let LayoutCandidate { metric, layout } = candidate.clone();
-        let fit = fit_unless_folding(&metric, &layout, options, folding_rounds, control)?;
+        let LayoutCandidate { metric, layout } = candidate;
+        let fit = fit_unless_folding(metric, layout, options, folding_rounds, control)?;
         let (n, folded) = (layout.patches.len(), fit.folded_patches.len());
         log::debug!("{n} patches: distances up to {:.1e}, {folded} folded", fit.max());
         let end = match folded {
@@ -186,7 +185,7 @@ impl FewPatchesSearch<'_> {
             n => FitEnd::Folded(n),
         };
         if self.best.as_ref().is_none_or(|best| fit.is_better_than(&best.fit)) {
-            self.best = Some(LayoutFit { seamless: metric, layout, fit });
+            self.best = Some(LayoutFit { seamless: metric.clone(), layout: layout.clone(), fit });
         }
         Ok(end)
     }
